@@ -1,0 +1,12 @@
+#pragma once
+
+/// The room `bedforms`: how impacts reshape the bed.
+///
+/// Ripples after Werner (1987), ch. V-VI and later theory: a height-map model that is fast enough to forecast a live plot,
+/// and a bed of single grains on a lattice that is the truth to test against. Both stand behind `BedModel`.
+
+#include "aeolian_core/bedforms/avalanche.hpp"
+#include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/exposure.hpp"
+#include "aeolian_core/bedforms/lattice_bed.hpp"
+#include "aeolian_core/bedforms/ripple_model.hpp"
