@@ -59,8 +59,10 @@ Translation best_translation(const GridGeometry& geometry, const HeightMap::Laye
                              const HeightMap::Layer& target, double direction, double max_shift) {
   const double along_x = std::cos(direction);
   const double along_y = std::sin(direction);
+  // To a millionth of a cell: what rounding leaves of cos(pi/2) must not ask a neighbour.
+  const auto snapped = [](double cells) { return std::round(cells * 1e6) / 1e6; };
   const auto misfit_at = [&](double cells) {
-    return misfit(geometry, start, target, Stencil(cells * along_x, cells * along_y));
+    return misfit(geometry, start, target, Stencil(snapped(cells * along_x), snapped(cells * along_y)));
   };
   const auto rmse_of = [](const Misfit& m) {
     return std::sqrt(m.sum_of_squares / static_cast<double>(m.cells));
