@@ -109,21 +109,27 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
 void write_truth(std::ostream& out, const TruthStatistics& truth) {
   const double largest = std::max(truth.measured.rmse, truth.forecast ? truth.forecast->rmse : 0.0);
   const Unit unit = length_unit(largest);
-  const auto row = [&](const char* name, const DifferenceStatistics& s) {
-    out << "<tr><td>" << name << "</td><td>" << number_text(s.rmse * unit.factor) << "</td><td>"
-        << number_text(s.bias * unit.factor) << "</td><td>" << number_text(s.nmad * unit.factor)
-        << "</td><td>" << s.cells << "</td></tr>\n";
+  const auto row = [&](const char* name, double DifferenceStatistics::*number) {
+    out << "<tr><td>" << name << " [" << unit.name << "]</td><td>"
+        << number_text(truth.measured.*number * unit.factor) << "</td>";
+    if (truth.forecast) out << "<td>" << number_text((*truth.forecast).*number * unit.factor) << "</td>";
+    out << "</tr>\n";
   };
   out << "<h2>How good is the measured map itself?</h2>\n<p>This run was simulated, so the true surface is "
          "known. What "
          "separates the measured map from it is the limit below which no error of a forecast can be "
          "seen.</p>\n"
-      << "<div class=\"table\"><table>\n<thead><tr><th>Compared with the true surface</th><th>RMSE ["
-      << unit.name << "]</th><th>mean difference [" << unit.name << "]</th><th>NMAD [" << unit.name
-      << "]</th><th>cells</th></tr></thead>\n<tbody>\n";
-  row("Measured map", truth.measured);
-  if (truth.forecast) row("Forecast", *truth.forecast);
-  out << "</tbody></table></div>\n";
+      << "<div class=\"maps\">\n"
+      << figure(truth.picture)
+      << "<div class=\"table beside\"><table>\n<thead><tr><th>Against the true surface</th><th>measured "
+         "map</th>"
+      << (truth.forecast ? "<th>forecast</th>" : "") << "</tr></thead>\n<tbody>\n";
+  row("Error, RMSE", &DifferenceStatistics::rmse);
+  row("Mean difference", &DifferenceStatistics::bias);
+  row("NMAD", &DifferenceStatistics::nmad);
+  out << "<tr><td>Cells compared</td><td>" << truth.measured.cells << "</td>";
+  if (truth.forecast) out << "<td>" << truth.forecast->cells << "</td>";
+  out << "</tr>\n</tbody></table></div>\n</div>\n";
 }
 
 std::string wind_text(double direction) {

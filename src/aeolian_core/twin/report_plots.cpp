@@ -64,6 +64,14 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
+/// The round step that divides a range into about four.
+double tic_step(double range) {
+  const double rough = range / 4;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  const double first = rough / power;
+  return power * (first < 1.5 ? 1 : first < 3.5 ? 2 : first < 7.5 ? 5 : 10);
+}
+
 /// One of the panels that share the axis of time.
 struct Panel {
   std::string title;
@@ -89,7 +97,8 @@ void write_panel(std::ostream& out, const Panel& panel, int number, double top, 
     return;
   }
   const double top_value = std::max(largest(panel.measured.y), largest(panel.forecast.y));
-  out << "set yrange [0:" << (top_value > 0 ? 1.15 * top_value : 1) << "]\nplot ";
+  out << "set yrange [0:" << (top_value > 0 ? 1.15 * top_value : 1) << "]\nset ytics "
+      << tic_step(top_value > 0 ? top_value : 1) << "\nplot ";
   if (measured)
     out << "$measured" << id << " using 1:2 title 'measured' with linespoints lw 1.2 pt 7 ps "
         << (panel.measured.x.size() > 60 ? 0.25 : 0.5) << " lc rgb measured";
@@ -177,10 +186,14 @@ void plot_skill(const std::vector<LeadSummary>& leads, const std::string& path) 
   const Unit unit = length_unit(largest_error);
   const Curve skill_persistence = curve_of(&Comparison::skill_persistence, 1);
   const Curve skill_translation = curve_of(&Comparison::skill_translation, 1);
+  // Medians are always in sight; a quartile far below would flatten all else.
   double least_skill = 0;
   for (const Curve* curve : {&skill_persistence, &skill_translation})
-    for (const double v : curve->lower)
-      if (std::isfinite(v)) least_skill = std::min(least_skill, v);
+    for (std::size_t i = 0; i < curve->x.size(); ++i) {
+      if (std::isfinite(curve->y[i])) least_skill = std::min(least_skill, curve->y[i]);
+      if (std::isfinite(curve->lower[i]))
+        least_skill = std::min(least_skill, std::max(curve->lower[i], -1.0));
+    }
 
   std::ostringstream script;
   script << plot_style;
