@@ -13,7 +13,7 @@ std::vector<NodeDescription> all_nodes() {
 
 std::string help_text(const NodeDescription& node) {
   std::string text = fmt::format(
-      "{0}: {1}\n\nrosrun aeolian_twin {0} [name:=other_name] [_parameter:=value]\n", node.name, node.help);
+      "{0}: {1}\n\nrosrun aeolian_twin {0} [__name:=other_name] [_parameter:=value]\n", node.name, node.help);
   const auto list = [&text](const std::string& title, const std::vector<std::string>& lines) {
     text += "\n" + title + "\n";
     for (const std::string& line : lines) text += "  " + line + "\n";

@@ -28,8 +28,8 @@ TEST(Config, HoldsExactlyTheDeclaredParametersWithTheirDefaults) {
       EXPECT_EQ(left.erase(declared.name), 1U)
           << node.name << ": " << declared.name << " is not in the YAML file";
       const YAML::Node value = config[declared.name];
-      if (value)
-        EXPECT_EQ(read_as(declared.fallback, value), declared.fallback) << node.name << ": " << declared.name;
+      if (!value.IsDefined()) continue;
+      EXPECT_EQ(read_as(declared.fallback, value), declared.fallback) << node.name << ": " << declared.name;
     }
     for (const std::string& name : left) ADD_FAILURE() << node.name << ": nobody declares " << name;
   }

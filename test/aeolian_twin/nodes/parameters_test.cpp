@@ -1,8 +1,8 @@
 #include "aeolian_twin/nodes/parameters.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
 
