@@ -121,7 +121,8 @@ void write_report(const Run& run, const std::string& path) {
         "growth.svg", "Ripples and wind over time",
         "How to read it: each black dot is a measured map, each open circle a forecast of the longest lead "
         "time, drawn at the time for which it was made. Circles on dots mean a good forecast. Ripples grow "
-        "while the wind's friction velocity is above the impact threshold, and rest below it."};
+        "while the wind's friction velocity is above the impact threshold, and rest below it." +
+            std::string(run.true_states.empty() ? "" : " The broad pale line is the true surface.")};
     write_csv(ripple_table(run), directory.file("ripples.csv"));
     page.tables.emplace_back("ripples.csv");
   }

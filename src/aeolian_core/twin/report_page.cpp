@@ -76,7 +76,7 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
   out << "<div class=\"table\"><table>\n<thead><tr><th>Lead time of the forecast</th>";
   for (const LeadSummary& lead : leads) out << "<th>" << duration_text(lead.lead_time) << "</th>";
   out << "</tr></thead>\n<tbody>\n<tr><td>Forecasts scored</td>";
-  for (const LeadSummary& lead : leads) out << "<td>" << lead.comparisons.size() << "</td>";
+  for (const LeadSummary& lead : leads) out << "<td>" << lead.scores.size() << "</td>";
   out << "</tr>\n";
   group("Error of the surface");
   row(&Comparison::rmse, "Forecast", "root mean square of forecast minus measurement", length_unit);
@@ -97,7 +97,8 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
   row(&Comparison::wavelength_predicted, "Wavelength, forecast", "", length_unit);
   row(&Comparison::height_measured, "Height, measured", "trough to crest", length_unit);
   row(&Comparison::height_predicted, "Height, forecast", "", length_unit);
-  row(&Comparison::displacement_measured, "Displacement, measured", "of the crests downwind, since the start",
+  row(&Comparison::displacement_measured, "Displacement, measured",
+      "of the crests downwind since the start; beyond half a wavelength the pattern meets itself again",
       length_unit);
   row(&Comparison::displacement_predicted, "Displacement, forecast", "", length_unit);
   group("Sand gained by the plot since the start of the forecast");

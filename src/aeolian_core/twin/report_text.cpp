@@ -42,7 +42,7 @@ std::string number_text(double value) {
   if (std::isinf(value)) return value < 0 ? minus + "∞" : "∞";
   if (value == 0) return "0";
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  return fixed(value, std::clamp(2 - magnitude, 0, 4));
+  return fixed(value, std::clamp(2 - magnitude, 0, 3));
 }
 
 std::string quantity_text(double value, const Unit& unit) {

@@ -26,7 +26,7 @@ std::string verdict(const Run& run, const std::vector<LeadSummary>& leads) {
   const double persistence = longest.spread(&Comparison::rmse_persistence).median;
   const double skill = longest.spread(&Comparison::skill_persistence).median;
   const Unit unit = length_unit(std::max(rmse, persistence));
-  const std::size_t count = longest.comparisons.size();
+  const std::size_t count = longest.scores.size();
   const std::string ahead = duration_text(longest.lead_time) + " ahead";
   const std::string numbers =
       "its error is " + quantity_text(rmse, unit) + " against " + quantity_text(persistence, unit) +
