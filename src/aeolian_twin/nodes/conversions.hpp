@@ -46,6 +46,7 @@ WindField to_wind_field(const grid_map_msgs::GridMap& message);
 
 aeolian_msgs::Comparison to_message(const Comparison& comparison, const std_msgs::Header& header,
                                     const ros::Time& issued);
+Comparison to_comparison(const aeolian_msgs::Comparison& message);
 
 /// Where and how a map is drawn.
 struct Drawing {
