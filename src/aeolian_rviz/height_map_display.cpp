@@ -5,6 +5,7 @@
 #include <rviz/frame_manager.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
+#include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
 
 #include <pluginlib/class_list_macros.hpp>
@@ -15,6 +16,9 @@
 namespace aeolian {
 
 HeightMapDisplay::HeightMapDisplay() {
+  topic_ = new rviz::RosTopicProperty(
+      "Topic", "", QString::fromStdString(ros::message_traits::datatype<grid_map_msgs::GridMap>()),
+      "Grid map to draw.", this, SLOT(resubscribe()));
   height_layer_ = new rviz::StringProperty("Height Layer", "elevation", "Layer drawn as the surface.", this,
                                            SLOT(redraw()));
   colour_layer_ = new rviz::StringProperty("Colour Layer", "elevation", "Layer that gives the colours.", this,
@@ -31,17 +35,39 @@ HeightMapDisplay::HeightMapDisplay() {
 HeightMapDisplay::~HeightMapDisplay() = default;
 
 void HeightMapDisplay::onInitialize() {
-  MFDClass::onInitialize();
   mesh_ = std::make_unique<SurfaceMesh>(context_->getSceneManager(), scene_node_);
 }
 
+void HeightMapDisplay::onEnable() { resubscribe(); }
+
+void HeightMapDisplay::onDisable() {
+  subscriber_.shutdown();
+  reset();
+}
+
+void HeightMapDisplay::fixedFrameChanged() { redraw(); }
+
+void HeightMapDisplay::setTopic(const QString& topic, const QString& /*datatype*/) { topic_->setString(topic); }
+
 void HeightMapDisplay::reset() {
-  MFDClass::reset();
+  Display::reset();
   message_.reset();
   if (mesh_) mesh_->clear();
 }
 
-void HeightMapDisplay::processMessage(const grid_map_msgs::GridMap::ConstPtr& message) {
+void HeightMapDisplay::resubscribe() {
+  if (!isEnabled()) return;
+  reset();
+  subscriber_.shutdown();
+  if (topic_->getTopicStd().empty()) return;
+  try {
+    subscriber_ = update_nh_.subscribe(topic_->getTopicStd(), 1, &HeightMapDisplay::take, this);
+  } catch (const ros::Exception& error) {
+    setStatusStd(rviz::StatusProperty::Error, "Topic", error.what());
+  }
+}
+
+void HeightMapDisplay::take(const grid_map_msgs::GridMap::ConstPtr& message) {
   message_ = message;
   redraw();
 }
@@ -50,8 +76,12 @@ void HeightMapDisplay::redraw() {
   if (!message_ || !mesh_) return;
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
-  const auto& header = message_->info.header;
-  if (!context_->getFrameManager()->getTransform(header.frame_id, header.stamp, position, orientation)) return;
+  // The newest transform: a forecast's stamp lies in the future.
+  const std::string& frame = message_->info.header.frame_id;
+  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation)) {
+    setStatusStd(rviz::StatusProperty::Error, "Map", "no transform from '" + frame + "' to the fixed frame");
+    return;
+  }
   try {
     const HeightMap map = to_height_map(*message_);
     const GridGeometry& geometry = map.geometry();

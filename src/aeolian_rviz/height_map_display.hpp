@@ -1,7 +1,8 @@
 #pragma once
 
 #include <grid_map_msgs/GridMap.h>
-#include <rviz/message_filter_display.h>
+#include <ros/subscriber.h>
+#include <rviz/display.h>
 
 #include <memory>
 
@@ -10,34 +11,43 @@
 namespace rviz {
 class EnumProperty;
 class FloatProperty;
+class RosTopicProperty;
 class StringProperty;
 }  // namespace rviz
 
 namespace aeolian {
 
 /// rviz display of a grid map: a shaded surface of one layer, coloured by the same or another.
-class HeightMapDisplay : public rviz::MessageFilterDisplay<grid_map_msgs::GridMap> {
+/// (Not a MessageFilterDisplay: that asks for a header at the top of the message, and a grid map's is inside `info`.)
+class HeightMapDisplay : public rviz::Display {
   Q_OBJECT
 
  public:
   HeightMapDisplay();
   ~HeightMapDisplay() override;
   void reset() override;
+  void setTopic(const QString& topic, const QString& datatype) override;
 
  protected:
   void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+  void fixedFrameChanged() override;
 
  private Q_SLOTS:
+  void resubscribe();
   void redraw();
 
  private:
-  void processMessage(const grid_map_msgs::GridMap::ConstPtr& message) override;
+  void take(const grid_map_msgs::GridMap::ConstPtr& message);
 
+  rviz::RosTopicProperty* topic_;
   rviz::StringProperty* height_layer_;
   rviz::StringProperty* colour_layer_;
   rviz::EnumProperty* palette_;
   rviz::FloatProperty* exaggeration_;
   std::unique_ptr<SurfaceMesh> mesh_;
+  ros::Subscriber subscriber_;
   grid_map_msgs::GridMap::ConstPtr message_;
 };
 

@@ -22,6 +22,9 @@ struct Forcing {
   double erosion_rate() const;
 };
 
+/// Throws Error naming the property of the forcing, or the duration [s], that is not physical, and what is allowed.
+void check(const Forcing& forcing, double duration);
+
 /// The forcing of one saltation state.
 Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain, const Splash& splash);
 

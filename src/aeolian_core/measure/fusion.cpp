@@ -25,21 +25,23 @@ class PointModel {
              const FusionParameters& parameters)
       : origin_(cloud.origin_x, cloud.origin_y, cloud.origin_z),
         rotation_(pose.linear()),
-        offset_(rotation_ * origin_ + pose.translation() -
+        turned_origin_(rotation_ * origin_),
+        offset_(turned_origin_ + pose.translation() -
                 Eigen::Vector3d(geometry.origin_x(), geometry.origin_y(), 0)),
-        sensor_(parameters.sensor),
+        sigma_(parameters.sensor.range_sigma),
+        sigma_per_metre_(parameters.sensor.range_sigma_per_metre),
         georeferenced_(origin_.norm() > parameters.max_range) {}
 
   bool georeferenced() const { return georeferenced_; }
   double squared_range(const Eigen::Vector3d& point) const { return (origin_ + point).squaredNorm(); }
-  Eigen::Vector3d to_map(const Eigen::Vector3d& point) const { return rotation_ * point + offset_; }
+  Eigen::Vector3d turned(const Eigen::Vector3d& point) const { return rotation_ * point; }
+  const Eigen::Vector3d& offset() const { return offset_; }
 
-  /// Inverse variance of the height of a point [1/m^2].
-  double weight(const Eigen::Vector3d& point, double squared_range) const {
-    if (georeferenced_) return 1 / (sensor_.range_sigma * sensor_.range_sigma);
-    double sigma = sensor_.range_sigma;
-    if (sensor_.range_sigma_per_metre > 0) sigma += sensor_.range_sigma_per_metre * std::sqrt(squared_range);
-    const double drop = rotation_.row(2).dot(origin_ + point);
+  /// Inverse variance of the height of a point [1/m^2]; `turned_z` of the turned point.
+  double weight(double turned_z, double squared_range) const {
+    if (georeferenced_) return 1 / (sigma_ * sigma_);
+    const double sigma = sigma_per_metre_ > 0 ? sigma_ + sigma_per_metre_ * std::sqrt(squared_range) : sigma_;
+    const double drop = turned_z + turned_origin_.z();
     constexpr double m2 = bed_slope * bed_slope;
     return squared_range / (sigma * sigma * ((1 - m2) * drop * drop + m2 * squared_range));
   }
@@ -47,8 +49,10 @@ class PointModel {
  private:
   Eigen::Vector3d origin_;
   Eigen::Matrix3d rotation_;
+  Eigen::Vector3d turned_origin_;
   Eigen::Vector3d offset_;
-  SensorNoise sensor_;
+  double sigma_;
+  double sigma_per_metre_;
   bool georeferenced_;
 };
 
@@ -145,19 +149,19 @@ void HeightFusion::gather(const PointCloud& cloud, const Eigen::Isometry3d& pose
       ++result.out_of_range;
       continue;
     }
-    const Eigen::Vector3d p = model.to_map(point);
-    const double cx = p.x() * per_cell;
-    const double cy = p.y() * per_cell;
+    const Eigen::Vector3d turned = model.turned(point);
+    const double cx = (turned.x() + model.offset().x()) * per_cell;
+    const double cy = (turned.y() + model.offset().y()) * per_cell;
     if (!(cx >= 0 && cy >= 0 && cx < g.nx() && cy < g.ny())) {
       ++result.outside;
       continue;
     }
     const std::size_t cell = g.index(static_cast<int>(cx), static_cast<int>(cy));
-    const double weight = model.weight(point, squared_range);
+    const double weight = model.weight(turned.z(), squared_range);
     Sums& sums = sums_[cell];
     if (sums.weight == 0) touched_.push_back(static_cast<std::uint32_t>(cell));
     sums.weight += weight;
-    sums.weighted_height += weight * p.z();
+    sums.weighted_height += weight * (turned.z() + model.offset().z());
     ++result.used;
   }
 }

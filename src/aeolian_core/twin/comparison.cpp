@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
 #include "aeolian_core/measure/ripple_statistics.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/twin/difference.hpp"
@@ -26,9 +28,8 @@ double skill(double rmse, double baseline) {
 
 /// How far a pattern is looked for: beyond half a wavelength it meets itself again. A bed without ripples is
 /// looked at within a tenth of its extent.
-double search_range(const GridGeometry& geometry, const RippleStatistics& start,
-                    const RippleStatistics& measured) {
-  for (const double wavelength : {start.wavelength, measured.wavelength})
+double search_range(const GridGeometry& geometry, double wavelength_measured, double wavelength_predicted) {
+  for (const double wavelength : {wavelength_measured, wavelength_predicted})
     if (std::isfinite(wavelength)) return wavelength / 2;
   return std::max(geometry.length_x(), geometry.length_y()) / 10;
 }
@@ -66,24 +67,26 @@ Comparison compare(const GridGeometry& geometry, const HeightMap::Layer& predict
   result.volume_change_measured = volume_change(geometry, change_measured);
   result.volume_change_predicted = volume_change(geometry, change_predicted);
 
-  const RippleStatistics ripples_start = ripple_statistics(geometry, start, direction);
-  const RippleStatistics ripples_measured = ripple_statistics(geometry, truth, direction);
-  const RippleStatistics ripples_predicted = ripple_statistics(geometry, forecast, direction);
+  RippleStatistics ripples_measured;
+  RippleStatistics ripples_predicted;
+  tbb::parallel_invoke([&] { ripples_measured = ripple_statistics(geometry, truth, direction); },
+                       [&] { ripples_predicted = ripple_statistics(geometry, forecast, direction); });
   result.wavelength_measured = ripples_measured.wavelength;
   result.wavelength_predicted = ripples_predicted.wavelength;
   result.height_measured = ripples_measured.height;
   result.height_predicted = ripples_predicted.height;
 
-  const double range = search_range(geometry, ripples_start, ripples_measured);
+  const double range = search_range(geometry, result.wavelength_measured, result.wavelength_predicted);
   const auto displacement = [&](const HeightMap::Layer& later, const DifferenceStatistics& change) {
     if (change.rmse == 0) return 0.0;
     return pattern_displacement(geometry, start, later, direction, range).value_or(NAN);
   };
-  result.displacement_measured = displacement(truth, change_measured);
-  result.displacement_predicted = displacement(forecast, change_predicted);
+  tbb::parallel_invoke(
+      [&] { result.displacement_measured = displacement(truth, change_measured); },
+      [&] { result.displacement_predicted = displacement(forecast, change_predicted); },
+      [&] { result.rmse_translation = best_translation(geometry, start, truth, direction, range).rmse; });
 
   result.rmse_persistence = change_measured.rmse;
-  result.rmse_translation = best_translation(geometry, start, truth, direction, range).rmse;
   result.skill_persistence = skill(error.rmse, result.rmse_persistence);
   result.skill_translation = skill(error.rmse, result.rmse_translation);
   return result;

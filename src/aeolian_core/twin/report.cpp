@@ -6,8 +6,8 @@
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/preview.hpp"
-#include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/on_grid.hpp"
 #include "aeolian_core/twin/report_page.hpp"
 #include "aeolian_core/twin/report_plots.hpp"
 #include "aeolian_core/twin/report_tables.hpp"
@@ -25,15 +25,26 @@ class Directory {
   std::filesystem::path path_;
 };
 
-/// Draws one elevation or one difference of elevations.
-void draw(const GridGeometry& geometry, const HeightMap::Layer& values, Palette palette, ValueRange range,
-          const std::string& path) {
+/// Draws heights with hill shading.
+void draw_heights(const GridGeometry& geometry, const HeightMap::Layer& values, ValueRange range,
+                  const std::string& path) {
   HeightMap map(geometry);
   map.add(layer::elevation, values);
   PreviewOptions options;
-  options.palette = palette;
   options.range = range;
-  options.relief = palette == Palette::sand;
+  write_preview(map, path, options);
+}
+
+/// Draws differences of heights in plain colours, white at zero.
+void draw_differences(const GridGeometry& geometry, const HeightMap::Layer& values, ValueRange range,
+                      const std::string& path) {
+  HeightMap map(geometry);
+  PreviewOptions options;
+  options.layer = "difference";
+  map.add(options.layer, values);
+  options.palette = Palette::diverging;
+  options.range = range;
+  options.relief = false;
   write_preview(map, path, options);
 }
 
@@ -43,17 +54,16 @@ std::vector<Figure> draw_maps(const Run& run, const Directory& directory) {
   const GridGeometry& grid = run.measured.geometry();
   const HeightMap::Layer& measured = run.measured.layer(layer::elevation);
   const ValueRange heights = display_range(measured, Palette::sand);
-  draw(grid, measured, Palette::sand, heights, directory.file("measured.png"));
+  draw_heights(grid, measured, heights, directory.file("measured.png"));
   std::vector<Figure> figures{
       {"measured.png", "Measured surface",
        "The map made of the sensor's scans. How to read it: pale is high, dark is low; ripples "
        "show as bands across the wind."}};
   if (!run.forecast.has(layer::elevation)) return figures;
 
-  if (run.forecast.geometry() != grid)
-    throw Error("report: forecast and measured map are of different grids");
-  const HeightMap::Layer& forecast = run.forecast.layer(layer::elevation);
-  draw(grid, forecast, Palette::sand, heights, directory.file("forecast.png"));
+  const HeightMap forecast_map = on_grid(run.forecast, grid);
+  const HeightMap::Layer& forecast = forecast_map.layer(layer::elevation);
+  draw_heights(grid, forecast, heights, directory.file("forecast.png"));
   figures.push_back(
       {"forecast.png", "Forecast for the same moment",
        "Made " + duration_text(run.forecast_lead) +
@@ -61,17 +71,17 @@ std::vector<Figure> draw_maps(const Run& run, const Directory& directory) {
            "forecast was right."});
   const HeightMap::Layer errors = difference(forecast, measured);
   ValueRange range = display_range(errors, Palette::diverging);
-  if (run.forecast.has(layer::initial)) {
-    const HeightMap::Layer change = difference(measured, run.forecast.layer(layer::initial));
+  if (forecast_map.has(layer::initial)) {
+    const HeightMap::Layer change = difference(measured, forecast_map.layer(layer::initial));
     const ValueRange of_change = display_range(change, Palette::diverging);
     range = {std::min(range.low, of_change.low), std::max(range.high, of_change.high)};
-    draw(grid, change, Palette::diverging, range, directory.file("change.png"));
+    draw_differences(grid, change, range, directory.file("change.png"));
     figures.push_back(
         {"change.png", "What changed: measured, now minus start of the forecast",
          "Red has risen, blue has sunk. This is what the forecast had to foresee, and the error of saying "
-         "“nothing changes” with the sign reversed."});
+         "“nothing changes” turned upside down."});
   }
-  draw(grid, errors, Palette::diverging, range, directory.file("difference.png"));
+  draw_differences(grid, errors, range, directory.file("difference.png"));
   figures.push_back(
       {"difference.png", "What the forecast missed: forecast minus measured",
        "Red: forecast too high, blue: too low, white: right. Same colours as the change; the paler this "
@@ -80,21 +90,20 @@ std::vector<Figure> draw_maps(const Run& run, const Directory& directory) {
 }
 
 /// How far measured map and forecast are from the truth, with a picture of the former.
-TruthStatistics compare_with_truth(const Run& run, const Directory& directory, std::vector<Figure>& figures) {
+TruthStatistics compare_with_truth(const Run& run, const Directory& directory) {
   const GridGeometry& grid = run.measured.geometry();
-  const HeightMap on_grid = run.truth->geometry() == grid ? *run.truth : resample(*run.truth, grid);
-  const HeightMap::Layer& truth = on_grid.layer(layer::elevation);
+  const HeightMap truth_map = on_grid(*run.truth, grid);
+  const HeightMap::Layer& truth = truth_map.layer(layer::elevation);
   const HeightMap::Layer& measured = run.measured.layer(layer::elevation);
-  TruthStatistics result{difference_statistics(measured, truth), std::nullopt};
+  TruthStatistics result{difference_statistics(measured, truth), std::nullopt, {}};
   if (result.measured.cells == 0) throw Error("report: the truth shares no known cell with the measured map");
   if (run.forecast.has(layer::elevation))
-    result.forecast = difference_statistics(run.forecast.layer(layer::elevation), truth);
+    result.forecast = difference_statistics(on_grid(run.forecast, grid).layer(layer::elevation), truth);
   const HeightMap::Layer errors = difference(measured, truth);
-  draw(grid, errors, Palette::diverging, display_range(errors, Palette::diverging),
-       directory.file("map_error.png"));
-  figures.push_back(
-      {"map_error.png", "What the sensor missed: measured minus true surface",
-       "Noise and hidden slopes of the measurement. Mind that the colours have a range of their own."});
+  draw_differences(grid, errors, display_range(errors, Palette::diverging), directory.file("map_error.png"));
+  result.picture = {
+      "map_error.png", "What the sensor missed: measured minus true surface",
+      "Noise and hidden slopes of the measurement. Mind that the colours have a range of their own."};
   return result;
 }
 
@@ -105,14 +114,15 @@ void write_report(const Run& run, const std::string& path) {
     throw Error("report: there is no measured map");
   const Directory directory(path);
   PageContents page{run, summarise_by_lead(run.scores), draw_maps(run, directory), {}, {}, {}, {}};
-  if (run.truth) page.truth = compare_with_truth(run, directory, page.maps);
+  if (run.truth) page.truth = compare_with_truth(run, directory);
   if (!run.states.empty()) {
     plot_growth(run, page.leads, directory.file("growth.svg"));
     page.growth = {
         "growth.svg", "Ripples and wind over time",
         "How to read it: each black dot is a measured map, each open circle a forecast of the longest lead "
         "time, drawn at the time for which it was made. Circles on dots mean a good forecast. Ripples grow "
-        "while the wind's friction velocity is above the impact threshold, and rest below it."};
+        "while the wind's friction velocity is above the impact threshold, and rest below it." +
+            std::string(run.true_states.empty() ? "" : " The broad pale line is the true surface.")};
     write_csv(ripple_table(run), directory.file("ripples.csv"));
     page.tables.emplace_back("ripples.csv");
   }

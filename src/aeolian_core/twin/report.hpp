@@ -34,6 +34,7 @@ struct Run {
   HeightMap forecast;    ///< the forecast for that time, longest lead; without layers when no forecast was scored
   double forecast_lead = 0;
   std::optional<HeightMap> truth;  ///< elevation at the same time, when it is known; any grid
+  std::vector<State> true_states;  ///< ripples of the true surface over time, when they are known
 };
 
 /// Writes index.html with its pictures and CSV tables into a directory: measured map, forecast, difference; growth of

@@ -76,7 +76,7 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
   out << "<div class=\"table\"><table>\n<thead><tr><th>Lead time of the forecast</th>";
   for (const LeadSummary& lead : leads) out << "<th>" << duration_text(lead.lead_time) << "</th>";
   out << "</tr></thead>\n<tbody>\n<tr><td>Forecasts scored</td>";
-  for (const LeadSummary& lead : leads) out << "<td>" << lead.comparisons.size() << "</td>";
+  for (const LeadSummary& lead : leads) out << "<td>" << lead.scores.size() << "</td>";
   out << "</tr>\n";
   group("Error of the surface");
   row(&Comparison::rmse, "Forecast", "root mean square of forecast minus measurement", length_unit);
@@ -97,7 +97,8 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
   row(&Comparison::wavelength_predicted, "Wavelength, forecast", "", length_unit);
   row(&Comparison::height_measured, "Height, measured", "trough to crest", length_unit);
   row(&Comparison::height_predicted, "Height, forecast", "", length_unit);
-  row(&Comparison::displacement_measured, "Displacement, measured", "of the crests downwind, since the start",
+  row(&Comparison::displacement_measured, "Displacement, measured",
+      "of the crests downwind since the start; beyond half a wavelength the pattern meets itself again",
       length_unit);
   row(&Comparison::displacement_predicted, "Displacement, forecast", "", length_unit);
   group("Sand gained by the plot since the start of the forecast");
@@ -109,21 +110,27 @@ void write_scores(std::ostream& out, const std::vector<LeadSummary>& leads) {
 void write_truth(std::ostream& out, const TruthStatistics& truth) {
   const double largest = std::max(truth.measured.rmse, truth.forecast ? truth.forecast->rmse : 0.0);
   const Unit unit = length_unit(largest);
-  const auto row = [&](const char* name, const DifferenceStatistics& s) {
-    out << "<tr><td>" << name << "</td><td>" << number_text(s.rmse * unit.factor) << "</td><td>"
-        << number_text(s.bias * unit.factor) << "</td><td>" << number_text(s.nmad * unit.factor)
-        << "</td><td>" << s.cells << "</td></tr>\n";
+  const auto row = [&](const char* name, double DifferenceStatistics::*number) {
+    out << "<tr><td>" << name << " [" << unit.name << "]</td><td>"
+        << number_text(truth.measured.*number * unit.factor) << "</td>";
+    if (truth.forecast) out << "<td>" << number_text((*truth.forecast).*number * unit.factor) << "</td>";
+    out << "</tr>\n";
   };
   out << "<h2>How good is the measured map itself?</h2>\n<p>This run was simulated, so the true surface is "
          "known. What "
          "separates the measured map from it is the limit below which no error of a forecast can be "
          "seen.</p>\n"
-      << "<div class=\"table\"><table>\n<thead><tr><th>Compared with the true surface</th><th>RMSE ["
-      << unit.name << "]</th><th>mean difference [" << unit.name << "]</th><th>NMAD [" << unit.name
-      << "]</th><th>cells</th></tr></thead>\n<tbody>\n";
-  row("Measured map", truth.measured);
-  if (truth.forecast) row("Forecast", *truth.forecast);
-  out << "</tbody></table></div>\n";
+      << "<div class=\"maps\">\n"
+      << figure(truth.picture)
+      << "<div class=\"table beside\"><table>\n<thead><tr><th>Against the true surface</th><th>measured "
+         "map</th>"
+      << (truth.forecast ? "<th>forecast</th>" : "") << "</tr></thead>\n<tbody>\n";
+  row("Error, RMSE", &DifferenceStatistics::rmse);
+  row("Mean difference", &DifferenceStatistics::bias);
+  row("NMAD", &DifferenceStatistics::nmad);
+  out << "<tr><td>Cells compared</td><td>" << truth.measured.cells << "</td>";
+  if (truth.forecast) out << "<td>" << truth.forecast->cells << "</td>";
+  out << "</tr>\n</tbody></table></div>\n</div>\n";
 }
 
 std::string wind_text(double direction) {

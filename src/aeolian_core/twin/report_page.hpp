@@ -10,17 +10,18 @@
 
 namespace aeolian {
 
-/// How far measured map and forecast are from the true surface.
-struct TruthStatistics {
-  DifferenceStatistics measured;
-  std::optional<DifferenceStatistics> forecast;
-};
-
 /// A picture of the report with the words below it.
 struct Figure {
   std::string file;  ///< beside the page
   std::string title;
   std::string caption;
+};
+
+/// How far measured map and forecast are from the true surface.
+struct TruthStatistics {
+  DifferenceStatistics measured;
+  std::optional<DifferenceStatistics> forecast;
+  Figure picture;  ///< measured map minus truth
 };
 
 /// What the page shows, computed and drawn already.

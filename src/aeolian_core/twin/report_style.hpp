@@ -28,6 +28,7 @@ figure.wide { margin-top: 16px; }
 figure img { display: block; width: 100%; height: auto; }
 figcaption { color: var(--soft); font-size: 14px; margin-top: 10px; }
 .table { overflow-x: auto; margin-top: 16px; background: #fff; border: 1px solid var(--line); }
+.table.beside { margin-top: 0; align-self: start; }
 table { border-collapse: collapse; width: 100%; font-size: 14.5px; font-variant-numeric: tabular-nums; }
 th, td { padding: 7px 16px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; white-space: normal; }

@@ -61,7 +61,7 @@ Table score_table(const Run& run) {
 Table lead_table(const std::vector<LeadSummary>& leads) {
   Table table;
   add_column(table, "lead_time_s", leads, [](const LeadSummary& l) { return l.lead_time; });
-  add_column(table, "forecasts", leads, [](const LeadSummary& l) { return l.comparisons.size(); });
+  add_column(table, "forecasts", leads, [](const LeadSummary& l) { return l.scores.size(); });
   for (const auto& [name, number] : score_columns) {
     const auto member = number;
     const std::string column = name;

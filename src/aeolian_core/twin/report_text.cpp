@@ -42,7 +42,7 @@ std::string number_text(double value) {
   if (std::isinf(value)) return value < 0 ? minus + "∞" : "∞";
   if (value == 0) return "0";
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  return fixed(value, std::clamp(2 - magnitude, 0, 4));
+  return fixed(value, std::clamp(2 - magnitude, 0, 3));
 }
 
 std::string quantity_text(double value, const Unit& unit) {
@@ -60,11 +60,12 @@ std::string skill_text(double skill) {
 
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return number_text(seconds);
-  if (seconds < 59.95) return number_text(seconds) + " s";
+  if (seconds < 10) return number_text(seconds) + " s";
   const auto whole = static_cast<long long>(std::llround(seconds));
   const auto part = [](long long count, const char* unit) {
     return count > 0 ? " " + std::to_string(count) + " " + unit : std::string();
   };
+  if (whole < 60) return std::to_string(whole) + " s";
   const std::string text = whole < 3600 ? part(whole / 60, "min") + part(whole % 60, "s")
                                         : part(whole / 3600, "h") + part(whole % 3600 / 60, "min");
   return text.substr(1);

@@ -17,7 +17,7 @@ Unit volume_unit(double largest);
 /// A unit that suits times up to `largest` [s]: s, min or h.
 Unit time_unit(double largest);
 
-/// Three significant digits; "not available" for NaN.
+/// Three significant digits, three decimals at most; "not available" for NaN.
 std::string number_text(double value);
 /// The same with the unit behind.
 std::string quantity_text(double value, const Unit& unit);

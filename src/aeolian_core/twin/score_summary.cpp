@@ -16,7 +16,7 @@ Spread spread_of(const std::vector<double>& values) {
 
 Spread LeadSummary::spread(double Comparison::*number) const {
   std::vector<double> values;
-  for (const Comparison& c : comparisons) values.push_back(c.*number);
+  for (const Run::Score& score : scores) values.push_back(score.comparison.*number);
   return spread_of(values);
 }
 
@@ -32,7 +32,7 @@ std::vector<LeadSummary> summarise_by_lead(const std::vector<Run::Score>& scores
     std::vector<double> leads;
     for (; first != sorted.end() && (*first)->lead_time <= longest; ++first) {
       leads.push_back((*first)->lead_time);
-      summary.comparisons.push_back((*first)->comparison);
+      summary.scores.push_back(**first);
     }
     summary.lead_time = quantile(leads, 0.5);
     result.push_back(std::move(summary));

@@ -19,7 +19,7 @@ Spread spread_of(const std::vector<double>& values);
 /// All forecasts with one lead time.
 struct LeadSummary {
   double lead_time = 0;  ///< median [s]
-  std::vector<Comparison> comparisons;
+  std::vector<Run::Score> scores;
 
   /// The spread of one number of the comparisons.
   Spread spread(double Comparison::* number) const;

@@ -82,8 +82,7 @@ Translation best_translation(const GridGeometry& geometry, const HeightMap::Laye
   };
 
   const double reach = max_shift / geometry.cell();
-  const int steps =
-      static_cast<int>(std::ceil(std::min(reach, 24.0)));  // to each side: a ripple is much longer
+  const int steps = static_cast<int>(std::ceil(std::min(reach, 12.0)));  // to each side: a ripple is longer
   const double step = steps > 0 ? reach / steps : 0;
   for (int i = 1; i <= steps && best_rmse > 0; ++i) {
     consider(i * step);

@@ -17,8 +17,6 @@ std::string why_no_score(const Run& run) {
   return none + made + " recorded at the time of validity of any.";
 }
 
-std::string percent(double share) { return number_text(std::round(100 * share)) + " %"; }
-
 }  // namespace
 
 std::string verdict(const Run& run, const std::vector<LeadSummary>& leads) {
@@ -28,7 +26,7 @@ std::string verdict(const Run& run, const std::vector<LeadSummary>& leads) {
   const double persistence = longest.spread(&Comparison::rmse_persistence).median;
   const double skill = longest.spread(&Comparison::skill_persistence).median;
   const Unit unit = length_unit(std::max(rmse, persistence));
-  const std::size_t count = longest.comparisons.size();
+  const std::size_t count = longest.scores.size();
   const std::string ahead = duration_text(longest.lead_time) + " ahead";
   const std::string numbers =
       "its error is " + quantity_text(rmse, unit) + " against " + quantity_text(persistence, unit) +
@@ -36,7 +34,8 @@ std::string verdict(const Run& run, const std::vector<LeadSummary>& leads) {
       "; skill " + skill_text(skill) + ").";
   if (skill >= telling_skill)
     return "Looking " + ahead + ", the forecast is better than assuming that nothing changes: " + numbers +
-           " It explains " + percent(skill) + " of the squared change of the surface.";
+           " It explains " + std::to_string(std::lround(100 * skill)) +
+           " % of the squared change of the surface.";
   if (skill > -telling_skill)
     return "Looking " + ahead +
            ", the forecast is as good as assuming that nothing changes, and no better: " + numbers;

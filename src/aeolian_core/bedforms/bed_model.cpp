@@ -1,0 +1,84 @@
+#include "aeolian_core/bedforms/bed_model.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "aeolian_core/surface/error.hpp"
+
+namespace aeolian {
+namespace {
+
+void require(bool allowed, const char* property, double value, const char* range) {
+  if (allowed) return;
+  std::ostringstream text;
+  text << "forcing: " << property << " is " << value << ", must be " << range;
+  throw Error(text.str());
+}
+
+}  // namespace
+
+double Forcing::erosion_rate() const {
+  const double side = grain.effective_diameter();
+  return ejection_rate * side * side * side;
+}
+
+void check(const Forcing& forcing, double duration) {
+  check(forcing.grain);
+  require(std::isfinite(forcing.direction), "direction", forcing.direction, "finite");
+  require(forcing.impact_angle >= 0.02 && forcing.impact_angle <= 1.4, "impact angle", forcing.impact_angle,
+          "0.02 to 1.4 rad");
+  require(forcing.ejection_rate >= 0 && std::isfinite(forcing.ejection_rate), "ejection rate",
+          forcing.ejection_rate, "zero or more and finite");
+  require(forcing.reptation_length >= 0 && std::isfinite(forcing.reptation_length), "reptation length",
+          forcing.reptation_length, "zero or more and finite");
+  require(duration >= 0 && std::isfinite(duration), "duration", duration, "zero or more and finite");
+}
+
+Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain,
+                     const Splash& splash) {
+  Forcing forcing;
+  forcing.direction = direction;
+  forcing.impact_angle = state.impact_angle;
+  forcing.ejection_rate = state.impact_rate * splash.ejecta_per_impact(grain, state.impact_speed);
+  forcing.reptation_length = splash.reptation_length(grain);
+  forcing.grain = grain;
+  return forcing;
+}
+
+Forcing mean_forcing(const std::vector<Forcing>& forcings, const std::vector<double>& weights) {
+  if (forcings.empty()) throw Error("forcing: there is nothing to average");
+  if (forcings.size() != weights.size())
+    throw Error("forcing: " + std::to_string(weights.size()) + " weights for " +
+                std::to_string(forcings.size()) + " forcings, must be one for each");
+  double time = 0;
+  for (const double weight : weights) {
+    require(weight >= 0 && std::isfinite(weight), "weight", weight, "zero or more and finite");
+    time += weight;
+  }
+  require(time > 0, "sum of weights", time, "positive");
+
+  double ejections = 0;
+  double east = 0;
+  double north = 0;
+  double angle = 0;
+  double length = 0;
+  for (std::size_t i = 0; i < forcings.size(); ++i) {
+    const double n = weights[i] * forcings[i].ejection_rate;
+    ejections += n;
+    east += n * std::cos(forcings[i].direction);
+    north += n * std::sin(forcings[i].direction);
+    angle += n * forcings[i].impact_angle;
+    length += n * forcings[i].reptation_length;
+  }
+  Forcing mean = forcings.front();
+  mean.ejection_rate = ejections / time;
+  if (ejections > 0) {
+    mean.direction = std::atan2(north, east);
+    mean.impact_angle = angle / ejections;
+    mean.reptation_length = length / ejections;
+  }
+  return mean;
+}
+
+}  // namespace aeolian
