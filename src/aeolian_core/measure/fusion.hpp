@@ -25,7 +25,8 @@ struct SensorNoise {
 
 struct FusionParameters {
   SensorNoise sensor;
-  double change_rate = 5e-5;  ///< random walk of the true surface between clouds [m/sqrt(s)]
+  double change_rate =
+      2e-4;  ///< random walk of the true surface between clouds [m/sqrt(s)]; too little lags behind ripples
   double gate_sigma = 5;  ///< a cell's mean farther than this many standard deviations off is an outlier ...
   int gate_patience =
       2;  ///< ... unless it is so for more than this many clouds in a row: then the cell restarts
