@@ -13,11 +13,11 @@ enum class Border {
 
 struct RippleParameters {
   Border border = Border::open;
-  double slope_effect =
-      2.0;  ///< mu: downslope bias of reptation (specification sec. 5.4); below cot(impact angle)
+  /// mu, the downslope bias of reptation (specification sec. 5.4), below cot(impact angle). Of 0.5 to 3, 1 forecasts the
+  /// lattice bed best five minutes ahead.
+  double slope_effect = 1.0;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
-  double relief_scale =
-      0.5;  ///< heights are taken above the surface smoothed over this length [m] (dune scale)
+  double relief_scale = 0.5;     ///< heights are taken above the surface smoothed over this length [m]
 };
 
 /// Ripples on a height map: impacts at a grazing angle fall on exposed slopes only, each sets grains
