@@ -21,7 +21,7 @@ PointCloud read_cloud(const std::string& path);
 /// atomically. Points that are not finite are left out.
 void write_cloud(const PointCloud& cloud, const std::string& path);
 
-/// The known cells of a layer as points at the cells' centres.
+/// The known cells of a layer as points at the cells' centres; throws Error when there are none.
 PointCloud to_cloud(const HeightMap& map, const std::string& layer = layer::elevation);
 
 }  // namespace aeolian

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,7 +38,7 @@ class HeightMap {
   /// Throws Error that names the layer when it is absent.
   Layer& layer(const std::string& name);
   const Layer& layer(const std::string& name) const;
-  /// Adds a layer filled with one value, or resets it to that value.
+  /// Adds a layer filled with one value, or resets it to that value. References to other layers stay valid.
   Layer& add(const std::string& name, float value = unknown);
   /// Adds or replaces a layer; throws Error unless there is a value for each cell.
   Layer& add(const std::string& name, Layer values);
@@ -45,7 +46,7 @@ class HeightMap {
 
  private:
   GridGeometry geometry_;
-  std::vector<std::pair<std::string, Layer>> layers_;
+  std::list<std::pair<std::string, Layer>> layers_;  ///< a list, so that references to layers stay valid
 };
 
 /// The number of finite cells of a layer.

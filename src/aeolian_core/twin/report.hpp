@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,10 +28,13 @@ struct Run {
   std::string source;  ///< the bag
   std::vector<State> states;
   std::vector<Score> scores;
-  HeightMap measured;    ///< the last measured map that has a forecast
-  HeightMap forecast;    ///< the forecast for that time, longest lead
+  std::size_t forecasts = 0;      ///< made in all, scored or not
+  double wind_direction = NAN;    ///< where it blew to, mean [rad], NaN when unknown
+  HeightMap measured;    ///< the last measured map that has a forecast, or the last of all when no forecast was scored
+  HeightMap forecast;    ///< the forecast for that time, longest lead; without layers when no forecast was scored
   double forecast_lead = 0;
-  std::optional<HeightMap> truth;  ///< elevation at the same time, when it is known
+  std::optional<HeightMap> truth;  ///< elevation at the same time, when it is known; any grid
+  std::vector<State> true_states;  ///< ripples of the true surface over time, when they are known
 };
 
 /// Writes index.html with its pictures and CSV tables into a directory: measured map, forecast, difference; growth of

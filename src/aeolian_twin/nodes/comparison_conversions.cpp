@@ -1,0 +1,26 @@
+#include "aeolian_twin/nodes/conversions.hpp"
+
+namespace aeolian {
+
+Comparison to_comparison(const aeolian_msgs::Comparison& m) {
+  Comparison c;
+  c.cells = m.cells;
+  c.bias = m.bias;
+  c.rmse = m.rmse;
+  c.nmad = m.nmad;
+  c.volume_change_measured = m.volume_change_measured;
+  c.volume_change_predicted = m.volume_change_predicted;
+  c.wavelength_measured = m.wavelength_measured;
+  c.wavelength_predicted = m.wavelength_predicted;
+  c.height_measured = m.height_measured;
+  c.height_predicted = m.height_predicted;
+  c.displacement_measured = m.displacement_measured;
+  c.displacement_predicted = m.displacement_predicted;
+  c.rmse_persistence = m.rmse_persistence;
+  c.rmse_translation = m.rmse_translation;
+  c.skill_persistence = m.skill_persistence;
+  c.skill_translation = m.skill_translation;
+  return c;
+}
+
+}  // namespace aeolian

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <aeolian_msgs/Comparison.h>
+#include <grid_map_msgs/GridMap.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+
+#include "aeolian_core/surface/height_map.hpp"
+#include "aeolian_core/surface/point_cloud.hpp"
+#include "aeolian_core/surface/shading.hpp"
+#include "aeolian_core/twin/comparison.hpp"
+#include "aeolian_core/wind/wind_model.hpp"
+
+/// Between messages and core types: the only place where the two meet. What a message gets wrong is an Error
+/// that names the field, its value and what is allowed.
+namespace aeolian {
+
+/// The map of all layers. Ours runs from the south-west corner, x fastest; a GridMap from the north-east one,
+/// rows (x) fastest: each layer is the other's in reverse. `elevation` is the basic layer when there is one.
+grid_map_msgs::GridMap to_message(const HeightMap& map, const std_msgs::Header& header);
+
+/// Start indices (of a map that moves with a robot) and both storage orders are honoured. Throws Error for a
+/// resolution or length that is not positive and finite, a rotated pose, or a layer that does not fit the
+/// map.
+HeightMap to_height_map(const grid_map_msgs::GridMap& message);
+
+/// Any order of fields, float32 or float64, either byte order, padded rows. Points that are not finite are
+/// kept. The origin is the first finite point in whole metres when a coordinate exceeds 1000 m, else zero.
+/// Throws Error for a field x, y or z that is missing or of another type, and for data whose size does not
+/// fit.
+PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message);
+
+/// The wind at the surface as a map: that of the cells, or a single cell over `extent` when it is the same
+/// everywhere. Layers friction_velocity [m/s], direction [rad], air_density [kg/m^3].
+grid_map_msgs::GridMap to_message(const WindField& wind, const GridGeometry& extent,
+                                  const std_msgs::Header& header);
+
+/// The cells' mean: friction velocity, direction of the mean vector, air density (1.225 when the layer is
+/// absent). `cells` holds the map unless it is a single cell. Throws Error when no cell is known.
+WindField to_wind_field(const grid_map_msgs::GridMap& message);
+
+aeolian_msgs::Comparison to_message(const Comparison& comparison, const std_msgs::Header& header,
+                                    const ros::Time& issued);
+Comparison to_comparison(const aeolian_msgs::Comparison& message);
+
+/// Where and how a map is drawn.
+struct Drawing {
+  std::string layer;                      ///< drawn as height
+  std::array<double, 3> offset{0, 0, 0};  ///< added to every point [m]
+  double exaggeration = 1;                ///< of the heights above the layer's lowest
+  std::vector<Rgb> colours;               ///< one for each cell
+};
+
+/// A point (x, y, z, rgb) for each known cell.
+sensor_msgs::PointCloud2 to_coloured_cloud(const HeightMap& map, const Drawing& drawing,
+                                           const std_msgs::Header& header);
+
+/// Two triangles between each four known neighbours, a colour at each vertex, about the map's corner as pose.
+visualization_msgs::Marker to_mesh(const HeightMap& map, const Drawing& drawing,
+                                   const std_msgs::Header& header);
+
+}  // namespace aeolian

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "aeolian_core/surface/error.hpp"
+
+namespace aeolian {
+
+/// A section of a YAML file, read strictly: every key must be there, be of its type and in its range, and no
+/// other may be. Errors name the file, the line, the key with its sections, the value and what is allowed.
+///
+///     YamlSection root = YamlSection::load(path);
+///     YamlSection wind = root.section("wind");
+///     const double speed = wind.number("mean_speed_m_s", 0, 100);
+///     wind.finish();
+class YamlSection {
+ public:
+  static YamlSection load(const std::string& path) {
+    try {
+      return {YAML::LoadFile(path), path, ""};
+    } catch (const YAML::BadFile&) {
+      throw Error(path + ": cannot be read");
+    } catch (const YAML::ParserException& e) {
+      throw Error(fmt::format("{}:{}: {}", path, e.mark.line + 1, e.msg));
+    }
+  }
+
+  /// A number from `low` to `high`, both allowed.
+  double number(const std::string& key, double low, double high) {
+    return checked(key, take(key), low, high);
+  }
+
+  /// A number greater than zero.
+  double positive(const std::string& key, double high = 1e12) {
+    return number(key, std::numeric_limits<double>::min(), high);
+  }
+
+  int integer(const std::string& key, int low, int high) {
+    const YAML::Node node = take(key);
+    const double value = checked(key, node, low, high);
+    if (value != std::floor(value)) fail(key, node, "must be a whole number");
+    return static_cast<int>(value);
+  }
+
+  std::string text(const std::string& key) {
+    const YAML::Node node = take(key);
+    if (!node.IsScalar() || node.Scalar().empty()) fail(key, node, "must be a text");
+    return node.Scalar();
+  }
+
+  /// [x, y, z] in metres.
+  Eigen::Vector3d point(const std::string& key) {
+    const YAML::Node node = take(key);
+    if (!node.IsSequence() || node.size() != 3) fail(key, node, "must be three numbers [x, y, z]");
+    constexpr double far = 1000;
+    return {checked(key, node[0], -far, far), checked(key, node[1], -far, far),
+            checked(key, node[2], -far, far)};
+  }
+
+  YamlSection section(const std::string& key) { return {take(key), path_, full(key)}; }
+
+  /// A list of sections; at least one.
+  std::vector<YamlSection> sections(const std::string& key) {
+    const YAML::Node node = take(key);
+    if (!node.IsSequence() || node.size() == 0) fail(key, node, "must be a list of at least one");
+    std::vector<YamlSection> result;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      result.push_back({node[i], path_, fmt::format("{}[{}]", full(key), i)});
+    return result;
+  }
+
+  /// Throws Error for a key that nobody asked for.
+  void finish() const {
+    for (const auto& entry : node_)
+      if (taken_.count(entry.first.Scalar()) == 0)
+        throw Error(fmt::format("{}:{}: unknown key '{}'", path_, entry.first.Mark().line + 1,
+                                full(entry.first.Scalar())));
+  }
+
+ private:
+  YamlSection(YAML::Node node, std::string path, std::string name)
+      : node_(std::move(node)), path_(std::move(path)), name_(std::move(name)) {
+    if (!node_.IsMap())
+      throw Error(fmt::format("{}:{}: {} must be a section of 'key: value' lines", path_,
+                              node_.Mark().line + 1, name_.empty() ? "the file" : name_));
+  }
+
+  std::string full(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+
+  YAML::Node take(const std::string& key) {
+    taken_.insert(key);
+    const YAML::Node node = const_cast<const YAML::Node&>(node_)[key];
+    if (!node) throw Error(fmt::format("{}: there is no key '{}'", path_, full(key)));
+    return node;
+  }
+
+  double checked(const std::string& key, const YAML::Node& node, double low, double high) const {
+    double value = 0;
+    try {
+      value = node.as<double>();
+    } catch (const YAML::Exception&) {
+      fail(key, node, "must be a number");
+    }
+    if (value >= low && value <= high) return value;
+    if (low == std::numeric_limits<double>::min()) fail(key, node, "must be positive");
+    fail(key, node, fmt::format("must be from {:g} to {:g}", low, high));
+  }
+
+  [[noreturn]] void fail(const std::string& key, const YAML::Node& node, const std::string& rule) const {
+    const std::string value =
+        node.IsScalar() ? fmt::format("is '{}'", node.Scalar()) : "is not a single value";
+    throw Error(fmt::format("{}:{}: {} {}, {}", path_, node.Mark().line + 1, full(key), value, rule));
+  }
+
+  YAML::Node node_;
+  std::string path_;
+  std::string name_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace aeolian
