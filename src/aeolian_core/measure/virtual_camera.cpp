@@ -13,11 +13,11 @@ namespace aeolian {
 namespace {
 
 // Tones, as shares of full scale.
-constexpr double lit_sand = 0.62;   // level, in the open light
+constexpr double lit_sand = 0.55;   // level, in the open light
 constexpr double sky_share = 0.25;  // of the light: what is left in full shadow
 constexpr double straightedge = 0.93;
 constexpr double nothing = 0.05;  // beside the map
-constexpr double grain_contrast = 0.2;
+constexpr double grain_contrast = 0.15;
 
 double squared(double v) { return v * v; }
 
@@ -63,9 +63,10 @@ class TopFace {
   double sunlight(const Eigen::Vector3d& point, double sun_radius) const {
     const Eigen::Vector3d a = start_ - point;
     const Eigen::Vector3d b = end_ - point;
-    const double hidden = beyond(along_, a, across_, sun_radius) *
-                          beyond(along_, a + width_ * across_, -across_, sun_radius) *
-                          beyond(across_, a, along_, sun_radius) * beyond(across_, b, -along_, sun_radius);
+    double hidden = beyond(along_, a, across_, sun_radius);
+    if (hidden > 0) hidden *= beyond(along_, a + width_ * across_, -across_, sun_radius);
+    if (hidden > 0)
+      hidden *= beyond(across_, a, along_, sun_radius) * beyond(across_, b, -along_, sun_radius);
     return 1 - hidden;
   }
 

@@ -1,5 +1,6 @@
 #include "aeolian_core/surface/pcl_file.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -45,43 +46,43 @@ void copy_values(const pcl::PCLPointCloud2& blob, std::size_t offset, std::vecto
   }
 }
 
+using CopyValues = void (*)(const pcl::PCLPointCloud2&, std::size_t, std::vector<double>&);
+
+/// Null for a type that is no number.
+CopyValues copy_values_of(std::uint8_t type) {
+  using Field = pcl::PCLPointField;
+  switch (type) {
+    case Field::FLOAT32:
+      return copy_values<float>;
+    case Field::FLOAT64:
+      return copy_values<double>;
+    case Field::INT8:
+      return copy_values<std::int8_t>;
+    case Field::UINT8:
+      return copy_values<std::uint8_t>;
+    case Field::INT16:
+      return copy_values<std::int16_t>;
+    case Field::UINT16:
+      return copy_values<std::uint16_t>;
+    case Field::INT32:
+      return copy_values<std::int32_t>;
+    case Field::UINT32:
+      return copy_values<std::uint32_t>;
+    default:
+      return nullptr;
+  }
+}
+
 std::vector<double> field_values(const pcl::PCLPointCloud2& blob, const std::string& name,
                                  const std::string& where) {
-  using Field = pcl::PCLPointField;
+  const auto field =
+      std::find_if(blob.fields.begin(), blob.fields.end(),
+                   [&](const pcl::PCLPointField& candidate) { return candidate.name == name; });
+  const CopyValues copy = field == blob.fields.end() ? nullptr : copy_values_of(field->datatype);
+  if (copy == nullptr) throw Error(where + "has no field " + name + ", must have the numbers x, y and z");
   std::vector<double> values;
-  for (const Field& field : blob.fields) {
-    if (field.name != name) continue;
-    switch (field.datatype) {
-      case Field::FLOAT32:
-        copy_values<float>(blob, field.offset, values);
-        break;
-      case Field::FLOAT64:
-        copy_values<double>(blob, field.offset, values);
-        break;
-      case Field::INT8:
-        copy_values<std::int8_t>(blob, field.offset, values);
-        break;
-      case Field::UINT8:
-        copy_values<std::uint8_t>(blob, field.offset, values);
-        break;
-      case Field::INT16:
-        copy_values<std::int16_t>(blob, field.offset, values);
-        break;
-      case Field::UINT16:
-        copy_values<std::uint16_t>(blob, field.offset, values);
-        break;
-      case Field::INT32:
-        copy_values<std::int32_t>(blob, field.offset, values);
-        break;
-      case Field::UINT32:
-        copy_values<std::uint32_t>(blob, field.offset, values);
-        break;
-      default:
-        throw Error(where + "field " + name + " has an unknown number type");
-    }
-    return values;
-  }
-  throw Error(where + "has no field " + name + ", must have x, y and z");
+  copy(blob, field->offset, values);
+  return values;
 }
 
 /// The lines of an ASCII PCD. PCL would take a word for the number zero; our reader names the line.
@@ -94,7 +95,7 @@ Coordinates read_ascii_pcd(const std::string& path, std::size_t start, const pcl
     auto field = header.fields.begin();
     for (; field != header.fields.end() && field->name != names[axis]; ++field) column += field->count;
     if (field == header.fields.end())
-      throw Error(where + "has no field " + names[axis] + ", must have x, y and z");
+      throw Error(where + "has no field " + names[axis] + ", must have the numbers x, y and z");
     columns[axis] = column;
   }
   Coordinates points = read_cloud_columns(path, start, columns);

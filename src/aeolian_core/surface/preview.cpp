@@ -147,7 +147,10 @@ void draw_colour_bar(cv::Mat& picture, const cv::Rect& bar, const PreviewOptions
   } else {
     const double step = round_below((high - low) / std::clamp(bar.height / 60, 2, 8) * 1.6);
     const int decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step) + 1e-9)), 0, 9);
-    for (double value = std::ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step) {
+    const auto first = static_cast<int>(std::ceil(low / step - 1e-9));
+    const auto last = static_cast<int>(std::floor(high / step + 1e-9));
+    for (int tick = first; tick <= last; ++tick) {
+      const double value = tick * step;
       const int y = bar.y + static_cast<int>(std::lround((high - value) / (high - low) * (bar.height - 1)));
       cv::line(picture, {bar.x + bar.width, y}, {bar.x + bar.width + 4, y}, ink, 1);
       draw_text(picture, number(value, decimals), {label_x, y + 5});

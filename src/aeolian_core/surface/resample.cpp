@@ -84,8 +84,9 @@ HeightMap::Layer coarsened(const GridGeometry& source, const HeightMap::Layer& v
   const double ratio = target.cell() / source.cell();
   const double shift_x = (target.origin_x() - source.origin_x()) / source.cell();
   const double shift_y = (target.origin_y() - source.origin_y()) / source.cell();
-  std::vector<Overlap> columns;
-  for (int x = 0; x < target.nx(); ++x) columns.push_back(overlap(shift_x + x * ratio, ratio, source.nx()));
+  std::vector<Overlap> columns(static_cast<std::size_t>(target.nx()));
+  for (std::size_t x = 0; x < columns.size(); ++x)
+    columns[x] = overlap(shift_x + static_cast<double>(x) * ratio, ratio, source.nx());
   HeightMap::Layer result;
   result.reserve(target.size());
   for (int y = 0; y < target.ny(); ++y) {

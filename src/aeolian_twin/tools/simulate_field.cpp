@@ -5,23 +5,17 @@
 // DIR/field_day.bag.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <geometry_msgs/TwistStamped.h>
-#include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <tf2_eigen/tf2_eigen.h>
-#include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
 #include "aeolian_core/surface/surface.hpp"
+#include "aeolian_twin/tools/field_bag.hpp"
 #include "aeolian_twin/tools/field_day.hpp"
 
 namespace aeolian {
@@ -37,95 +31,6 @@ std::uint64_t derived_seed(std::uint64_t seed, Source source, std::uint64_t numb
   const auto bits = Philox(seed)(number, static_cast<std::uint64_t>(source));
   return std::uint64_t{bits[1]} << 32 | bits[0];
 }
-
-std::string scanner_frame(std::size_t i) { return fmt::format("scanner_{}", i + 1); }
-
-sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, const VirtualScanner& scanner) {
-  sensor_msgs::PointCloud2 message;
-  message.width = static_cast<std::uint32_t>(scanner.columns);
-  message.height = static_cast<std::uint32_t>(scanner.rows);
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    message.fields.push_back(field);
-  }
-  message.point_step = 3 * sizeof(float);
-  message.row_step = message.point_step * message.width;
-  message.is_dense = 0;
-  message.data.resize(std::size_t{message.row_step} * message.height);
-  auto* to = reinterpret_cast<float*>(message.data.data());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    for (const float value : {cloud.x[i], cloud.y[i], cloud.z[i]}) *to++ = value;
-  return message;
-}
-
-sensor_msgs::CameraInfo camera_info(const VirtualCamera& camera) {
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(camera.width_px);
-  info.height = static_cast<std::uint32_t>(camera.height_px);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0);
-  const double f = camera.focal_px;
-  // Pixel centres are whole numbers in ROS; the middle of the picture lies half a pixel before width / 2.
-  const double cx = 0.5 * (camera.width_px - 1);
-  const double cy = 0.5 * (camera.height_px - 1);
-  info.K = {f, 0, cx, 0, f, cy, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.P = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
-  return info;
-}
-
-/// The bag of a day. Stamps count from the day's start; a message's stamp is its time in the bag.
-class FieldBag {
- public:
-  FieldBag(const std::string& path, double start) : start_(start), bag_(path, rosbag::bagmode::Write) {
-    bag_.setCompression(rosbag::compression::LZ4);
-  }
-  void close() { bag_.close(); }
-
-  template <class Message>
-  void write(const std::string& topic, double time, const std::string& frame, Message message) {
-    message.header.stamp = stamp(time);
-    message.header.frame_id = frame;
-    bag_.write(topic, message.header.stamp, message);
-  }
-
-  void write_frames(const FieldDay& day) {
-    tf2_msgs::TFMessage frames;
-    const auto add = [&](const std::string& name, const Eigen::Isometry3d& pose) {
-      geometry_msgs::TransformStamped frame = tf2::eigenToTransform(pose);
-      frame.header.stamp = stamp(0);
-      frame.header.frame_id = "map";
-      frame.child_frame_id = name;
-      frames.transforms.push_back(frame);
-    };
-    for (std::size_t i = 0; i < day.scanners.size(); ++i) add(scanner_frame(i), day.scanners[i].pose);
-    add("camera", day.camera.pose);
-    add("anemometer", day.anemometer_pose);
-    using Traits = ros::message_traits::Definition<tf2_msgs::TFMessage>;
-    const auto header = boost::make_shared<ros::M_string>(
-        ros::M_string{{"topic", "/tf_static"},
-                      {"type", ros::message_traits::datatype<tf2_msgs::TFMessage>()},
-                      {"md5sum", ros::message_traits::md5sum<tf2_msgs::TFMessage>()},
-                      {"message_definition", Traits::value()},
-                      {"callerid", "/simulate_field"},
-                      {"latching", "1"}});
-    bag_.write("/tf_static", stamp(0), frames, header);
-  }
-
- private:
-  ros::Time stamp(double time) const {
-    const double whole = std::floor(start_);
-    ros::Time result(static_cast<std::uint32_t>(whole), 0);
-    return result + ros::Duration(time + (start_ - whole));
-  }
-
-  double start_;
-  rosbag::Bag bag_;
-};
 
 /// The wind of the day and what it does to the bed.
 class Wind {
@@ -252,11 +157,7 @@ class Simulation {
     surface_.add(layer::elevation, bed_.elevation(day_.plot));
     const auto& samples = wind_.samples();
     for (; winds_ < samples.size() && samples[winds_].time <= time; ++winds_) {
-      const auto& sample = samples[winds_];
-      geometry_msgs::TwistStamped message;
-      message.twist.linear.x = sample.speed * std::cos(sample.direction);
-      message.twist.linear.y = sample.speed * std::sin(sample.direction);
-      bag_.write("/wind", sample.time, "anemometer", message);
+      bag_.write(samples[winds_]);
     }
   }
 
@@ -264,20 +165,14 @@ class Simulation {
     for (std::size_t i = 0; i < day_.scanners.size(); ++i) {
       const VirtualScanner& scanner = day_.scanners[i];
       const auto cloud = scanner.scan(surface_, derived_seed(day_.seed, Source::scanner, i), number);
-      bag_.write("/points", time_, scanner_frame(i), to_message(cloud, scanner));
+      bag_.write(cloud, scanner, i, time_);
     }
   }
 
   void photograph(std::uint64_t number) {
-    sensor_msgs::Image image;
-    image.width = static_cast<std::uint32_t>(day_.camera.width_px);
-    image.height = static_cast<std::uint32_t>(day_.camera.height_px);
-    image.encoding = "mono8";
-    image.step = image.width;
-    image.data = day_.camera.photograph(surface_, day_.straightedge, day_.light, day_.grain.diameter,
-                                        derived_seed(day_.seed, Source::camera, number));
-    bag_.write("/image", time_, "camera", image);
-    bag_.write("/camera_info", time_, "camera", camera_info(day_.camera));
+    bag_.write(day_.camera.photograph(surface_, day_.straightedge, day_.light, day_.grain.diameter,
+                                      derived_seed(day_.seed, Source::camera, number)),
+               day_.camera, time_);
   }
 
   void store_truth() {
@@ -322,14 +217,11 @@ void simulate(const FieldDay& day, const std::string& directory) {
   });
 }
 
-}  // namespace
-}  // namespace aeolian
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "A virtual field day: DIR/field_day.bag with /points, /wind, /image, /camera_info and /tf_static; the "
-      "true "
-      "elevation of every minute and its ripples in DIR/truth.");
+      "true elevation "
+      "of every minute and its ripples in DIR/truth.");
   std::string config;
   std::string directory;
   std::uint64_t seed = 0;
@@ -341,15 +233,24 @@ int main(int argc, char** argv) {
                                    ->check(CLI::Range(0.001, 1e4));
   try {
     app.parse(argc, argv);
-    aeolian::FieldDay day = aeolian::read_field_day(config);
-    if (seed_option->count() > 0) day.seed = seed;
-    if (minutes_option->count() > 0) day.duration = 60 * minutes;
-    aeolian::simulate(day, directory);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 1;
+  }
+  FieldDay day = read_field_day(config);
+  if (seed_option->count() > 0) day.seed = seed;
+  if (minutes_option->count() > 0) day.duration = 60 * minutes;
+  simulate(day, directory);
+  return 0;
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  try {
+    return aeolian::run(argc, argv);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "simulate_field: %s\n", e.what());
     return 1;
   }
-  return 0;
 }
