@@ -191,7 +191,7 @@ NodeDescription describe_comparator() {
            "wind_field (grid_map_msgs/GridMap)"},
           {"comparison (aeolian_msgs/Comparison)",
            "difference (grid_map_msgs/GridMap, latched): difference (predicted - measured), elevation "
-           "(measured) [m]"},
+           "(measured) [m], lead_time [s]"},
           {
               frame_parameter(),
               {"tolerance", 1.0, "s", "the map compared must be so near to the forecast's time",

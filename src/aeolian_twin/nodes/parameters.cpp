@@ -33,7 +33,7 @@ std::optional<double> as_number(const XmlRpcValue& given) {
 std::optional<std::vector<double>> as_numbers(const XmlRpcValue& given) {
   if (given.getType() != XmlRpcValue::TypeArray) return std::nullopt;
   std::vector<double> result;
-  for (int i = 0; i < given.size(); ++i) {
+  for (int i = 0; i < given.size(); ++i) {  // NOLINT(modernize-loop-convert): begin() is for structs only
     const std::optional<double> number = as_number(given[i]);
     if (!number) return std::nullopt;
     result.push_back(*number);
