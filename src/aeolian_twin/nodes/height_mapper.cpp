@@ -271,7 +271,7 @@ NodeDescription describe_height_mapper() {
           {"gate_patience", fusion.gate_patience, "",
            "clouds in a row that may be outliers before a cell restarts", Limits::between(0, 100)},
           {"min_range", fusion.min_range, "m", "nearer points are ignored", Limits::not_negative()},
-          {"max_range", fusion.max_range, "m", "farther points are ignored", Limits::positive()},
+          {"max_range", 1e9, "m", "farther points are ignored", Limits::positive()},
           {"tf_timeout", 2.0, "s", "a transform that is missing for so long is reported", Limits::positive()},
           {"queue_size", 10, "", "clouds that may wait for their transform", Limits::between(1, 1000)},
           {"map_file", std::string("height_map.tif"), "", "GeoTIFF that save_map writes and load_map reads"},

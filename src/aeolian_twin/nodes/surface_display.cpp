@@ -111,7 +111,8 @@ class SurfaceDisplay : public Node {
         map, GridGeometry(g.origin_x(), g.origin_y(), g.cell() * factor, coarse(g.nx()), coarse(g.ny())));
   }
 
-  /// The title with the lead time of a forecast and the range of the colours, in millimetres or metres.
+  /// The title with the lead time of a forecast and what the first and last colour mean, in millimetres or
+  /// metres.
   visualization_msgs::Marker title(const HeightMap& map, const ValueRange& shown) const {
     std::string text = title_;
     if (map.has(layer::lead_time)) {
@@ -121,7 +122,9 @@ class SurfaceDisplay : public Node {
     }
     const bool small = std::max(std::abs(shown.low), std::abs(shown.high)) < 0.5;
     const double unit = small ? 1e-3 : 1;
-    text += fmt::format(": {:.1f} to {:.1f} {}", shown.low / unit, shown.high / unit, small ? "mm" : "m");
+    const bool diverging = palette_ == Palette::diverging;
+    text += fmt::format(", {} {:.1f} to {} {:.1f} {}", diverging ? "blue" : "dark", shown.low / unit,
+                        diverging ? "red" : "bright", shown.high / unit, small ? "mm" : "m");
 
     const GridGeometry& geometry = map.geometry();
     const std::array<double, 3> moved = offset(geometry);
