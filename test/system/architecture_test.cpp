@@ -51,7 +51,9 @@ TEST(Architecture, EveryRoomExistsAndSaysWhatItIs) {
     EXPECT_NE(header.find("/// The room `" + room + "`"), std::string::npos) << room;
   }
   for (const auto& entry : fs::directory_iterator(core))
-    if (entry.is_directory()) EXPECT_TRUE(allowed.count(entry.path().filename().string())) << entry.path();
+    if (entry.is_directory()) {
+      EXPECT_TRUE(allowed.count(entry.path().filename().string())) << entry.path();
+    }
 }
 
 TEST(Architecture, IncludesGoUpTheListOfRooms) {

@@ -48,6 +48,15 @@ class Diagnostics {
   bool warns(const std::string& node, const std::string& text) {
     return says(node, diagnostic_msgs::DiagnosticStatus::WARN, text);
   }
+  /// Whether a node has started.
+  bool is_up(const std::string& node) {
+    return wait_until([&] {
+      for (const auto& array : listener_.messages)
+        for (const auto& status : array->status)
+          if (status.name.find(node) == 0 && status.message != "Node starting up") return true;
+      return false;
+    });
+  }
   bool is_well(const std::string& node) {
     return says(node, diagnostic_msgs::DiagnosticStatus::OK, "running");
   }

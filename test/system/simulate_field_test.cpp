@@ -1,4 +1,5 @@
 // simulate_field as people run it: a short day on a small plot, made from the shipped configuration.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -45,7 +46,8 @@ YAML::Node small_day() {
   day["bed"]["spin_up_minutes"] = 1;
   day["scanners"]["columns"] = 80;
   day["scanners"]["rows"] = 40;
-  day["scanners"]["dropout"] = 0.1;
+  day["scanners"]["field_of_view_across_deg"] = 8;
+  day["scanners"]["field_of_view_along_deg"] = 4;
   for (YAML::Node tripod : day["scanners"]["tripods"]) {
     tripod["position_m"][0] = 0.1;
     tripod["looks_at_m"] = std::vector<double>{0.1, 0.05, 0};

@@ -7,10 +7,10 @@
 
 namespace aeolian {
 
-/// Lets every slope steeper than `tan_repose` slide down to it, conserving volume to rounding, by projection (no explicit
-/// diffusion). Slopes are taken to the eight neighbours. Only tiles of `active` and those that the slide reaches are
-/// visited. `periodic` joins opposite borders; otherwise they are walls. Stops when no slope exceeds tan_repose by more
-/// than a thousandth of itself. Returns the volume moved [m^3].
+/// Lets every slope steeper than `tan_repose` slide down to it, conserving volume to rounding, by projection
+/// (no explicit diffusion). Slopes are taken to the eight neighbours. Only tiles of `active` and those that
+/// the slide reaches are visited. `periodic` joins opposite borders; otherwise they are walls. Stops when no
+/// slope exceeds tan_repose by more than a thousandth of itself. Returns the volume moved [m^3].
 double avalanche(const GridGeometry& geometry, std::vector<double>& height, double tan_repose, bool periodic,
                  TileMask& active);
 

@@ -22,21 +22,23 @@ struct Forcing {
   double erosion_rate() const;
 };
 
-/// Throws Error naming the property of the forcing, or the duration [s], that is not physical, and what is allowed.
+/// Throws Error naming the property of the forcing, or the duration [s], that is not physical, and what is
+/// allowed.
 void check(const Forcing& forcing, double duration);
 
 /// The forcing of one saltation state.
 Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain, const Splash& splash);
 
-/// The mean of several forcings (gusts) with the weight of each one's time: rates are averaged as they are, direction and
-/// impact angle by ejection rate, so that calm spells move nothing. Throws Error when empty or sizes differ.
+/// The mean of several forcings (gusts) with the weight of each one's time: rates are averaged as they are,
+/// direction and impact angle by ejection rate, so that calm spells move nothing. Throws Error when empty or
+/// sizes differ.
 Forcing mean_forcing(const std::vector<Forcing>& forcings, const std::vector<double>& weights);
 
 /// Book-keeping of sand in one advance [m^3].
 struct VolumeBalance {
-  double moved = 0;    ///< set moving in all
-  double change = 0;   ///< of the bed
-  double inflow = 0;   ///< across the borders
+  double moved = 0;   ///< set moving in all
+  double change = 0;  ///< of the bed
+  double inflow = 0;  ///< across the borders
   double outflow = 0;
   /// What is unaccounted for, relative to what moved; zero when nothing moved.
   double error() const { return moved > 0 ? (change - inflow + outflow) / moved : 0; }
@@ -52,8 +54,9 @@ struct BedChange {
 class BedModel {
  public:
   virtual ~BedModel() = default;
-  /// Moves the layer `elevation` of the map forward by `duration` [s]. Unknown cells stay unknown. Below the impact
-  /// threshold (no ejection) the map is left bit for bit. Throws Error for a forcing or duration that is not physical.
+  /// Moves the layer `elevation` of the map forward by `duration` [s]. Unknown cells stay unknown. Below the
+  /// impact threshold (no ejection) the map is left bit for bit. Throws Error for a forcing or duration that
+  /// is not physical.
   virtual BedChange advance(HeightMap& map, const Forcing& forcing, double duration) = 0;
 };
 

@@ -2,8 +2,9 @@
 
 /// The room `bedforms`: how impacts reshape the bed.
 ///
-/// Ripples after Werner (1987), ch. V-VI and later theory: a height-map model that is fast enough to forecast a live plot,
-/// and a bed of single grains on a lattice that is the truth to test against. Both stand behind `BedModel`.
+/// Ripples after Werner (1987), ch. V-VI and later theory: a height-map model that is fast enough to forecast
+/// a live plot, and a bed of single grains on a lattice that is the truth to test against. Both stand behind
+/// `BedModel`.
 
 #include "aeolian_core/bedforms/avalanche.hpp"
 #include "aeolian_core/bedforms/bed_model.hpp"

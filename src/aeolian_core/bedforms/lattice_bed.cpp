@@ -56,12 +56,7 @@ LatticeBed::LatticeBed(int nx, int ny, double spacing, double angle_of_repose, s
     for (int x = 0; x < nx; ++x)
       height_[static_cast<std::size_t>(y * nx + x)] = static_cast<std::int16_t>((x + y) % 2);
 
-  const double columns = static_cast<double>(nx) * ny;
-  const auto anywhere = [&] { return static_cast<int>(random_.uniform() * columns); };
-  for (auto moves = static_cast<std::int64_t>(roughening * columns); moves > 0; --moves) {
-    height_[static_cast<std::size_t>(climb(anywhere()))] -= 2;
-    height_[static_cast<std::size_t>(descend(anywhere()))] += 2;
-  }
+  roughen(roughening);
 }
 
 std::int64_t LatticeBed::total() const {

@@ -47,16 +47,17 @@ class LatticeBed {
   HeightMap::Layer elevation(const GridGeometry& geometry) const;
 
  private:
+  struct Column;
   struct Path;
   struct Hop;
 
+  std::int16_t& height(Column at);
+  void roughen(double moves_per_column);
+  template <bool up>
+  Column walk(Column at);
   Path wind_path(double direction);
   void sweep(const Path& path, double drop, double gap, const Hop& hop);
-  void eject(int struck, const Hop& hop);
-  int climb(int at);
-  int descend(int at);
-  template <bool up>
-  int walk(int at);
+  void eject(Column struck, const Hop& hop);
 
   int nx_;
   int ny_;

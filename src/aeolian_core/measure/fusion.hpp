@@ -25,10 +25,12 @@ struct SensorNoise {
 
 struct FusionParameters {
   SensorNoise sensor;
-  double change_rate = 5e-5;  ///< random walk of the true surface between clouds [m/sqrt(s)]
-  double gate_sigma = 5;  ///< a cell's mean farther than this many standard deviations off is an outlier ...
-  int gate_patience =
-      2;  ///< ... unless it is so for more than this many clouds in a row: then the cell restarts
+  /// Random walk of the true surface between clouds [m/sqrt(s)]; too little lags behind migrating ripples.
+  double change_rate = 2e-4;
+  /// A cell's mean farther than so many standard deviations off is an outlier ...
+  double gate_sigma = 5;
+  /// ... unless it is so for more than this many clouds in a row: then the cell restarts.
+  int gate_patience = 2;
   double min_range = 0.0;  ///< points nearer to the sensor are ignored [m]
   double max_range = 1e4;  ///< points farther away are ignored [m]
 };

@@ -1,6 +1,7 @@
 #include "aeolian_core/measure/virtual_scanner.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "aeolian_core/measure/surface_rays.hpp"
@@ -15,15 +16,17 @@ struct SineCosine {
   double cosine;
 };
 
-/// The directions at the middles of `count` equal parts of a fan.
-std::vector<SineCosine> fan(int count, double field_of_view) {
+/// The directions of a fan of `count` steps, each taken at a fraction `phase` of its step.
+std::vector<SineCosine> fan(int count, double field_of_view, double phase) {
   std::vector<SineCosine> result;
   for (int i = 0; i < count; ++i) {
-    const double angle = ((i + 0.5) / count - 0.5) * field_of_view;
+    const double angle = ((i + phase) / count - 0.5) * field_of_view;
     result.push_back({std::sin(angle), std::cos(angle)});
   }
   return result;
 }
+
+double uniform(std::uint32_t word) { return (static_cast<double>(word) + 0.5) * 0x1p-32; }
 
 void check(const VirtualScanner& scanner) {
   if (scanner.columns < 1 || scanner.rows < 1)
@@ -44,9 +47,10 @@ void check(const VirtualScanner& scanner) {
 PointCloud VirtualScanner::scan(const HeightMap& truth, std::uint64_t seed, std::uint64_t scan_number) const {
   check(*this);
   const SurfaceRays surface(truth.geometry(), truth.layer(layer::elevation));
-  const auto across = fan(columns, field_of_view_x);
-  const auto along = fan(rows, field_of_view_y);
   const Philox random(seed);
+  const auto phase = random(std::numeric_limits<std::uint64_t>::max(), scan_number);
+  const auto across = fan(columns, field_of_view_x, uniform(phase[0]));
+  const auto along = fan(rows, field_of_view_y, uniform(phase[1]));
   PointCloud cloud;
   cloud.reserve(across.size() * along.size());
   std::uint64_t ray = 0;
@@ -54,7 +58,6 @@ PointCloud VirtualScanner::scan(const HeightMap& truth, std::uint64_t seed, std:
     for (const auto& a : across) {
       const Eigen::Vector3d direction(a.sine * b.cosine, b.sine, a.cosine * b.cosine);
       const auto bits = random(ray++, scan_number);
-      const auto uniform = [](std::uint32_t word) { return (static_cast<double>(word) + 0.5) * 0x1p-32; };
       const auto hit = uniform(bits[2]) < dropout
                            ? std::nullopt
                            : surface.first_hit(pose.translation(), pose.linear() * direction);

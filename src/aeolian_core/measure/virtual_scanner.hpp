@@ -22,7 +22,9 @@ struct VirtualScanner {
 
   /// What the scanner sees of a map's elevation: an organised cloud (row by row) in sensor coordinates, NaN
   /// for rays that drop out or miss. Rays meet the bilinear surface, so that crests hide what lies behind
-  /// them (occlusion). Noise is a function of (seed, scan, ray) alone.
+  /// them (occlusion). Each scan starts at another fraction of a step, as a sweeping head does, so that no
+  /// cell is passed over for ever. That and the noise are functions of (seed, scan, ray) alone. Throws Error
+  /// naming a property that cannot be.
   PointCloud scan(const HeightMap& truth, std::uint64_t seed, std::uint64_t scan_number) const;
 };
 

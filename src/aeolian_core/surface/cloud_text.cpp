@@ -15,17 +15,29 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Takes the next field and the separator behind it off the front of a line.
-std::string_view take_field(std::string_view& line) {
-  std::size_t end = 0;
-  while (end < line.size() && !is_blank(line[end]) && line[end] != ',' && line[end] != ';') ++end;
-  const std::string_view field = line.substr(0, end);
-  while (end < line.size() && is_blank(line[end])) ++end;
-  if (end < line.size() && (line[end] == ',' || line[end] == ';')) ++end;
-  while (end < line.size() && is_blank(line[end])) ++end;
-  line.remove_prefix(end);
-  return field;
-}
+/// The fields of a line, one after the other. A separator at its end is followed by an empty field.
+class Fields {
+ public:
+  explicit Fields(std::string_view line) : rest_(line), more_(!line.empty()) {}
+
+  bool more() const { return more_; }
+  std::string_view take() {
+    std::size_t end = 0;
+    while (end < rest_.size() && !is_blank(rest_[end]) && rest_[end] != ',' && rest_[end] != ';') ++end;
+    const std::string_view field = rest_.substr(0, end);
+    while (end < rest_.size() && is_blank(rest_[end])) ++end;
+    const bool separated = end < rest_.size() && (rest_[end] == ',' || rest_[end] == ';');
+    if (separated) ++end;
+    while (end < rest_.size() && is_blank(rest_[end])) ++end;
+    rest_.remove_prefix(end);
+    more_ = separated || !rest_.empty();
+    return field;
+  }
+
+ private:
+  std::string_view rest_;
+  bool more_;
+};
 
 std::optional<std::size_t> axis_of(std::string_view name) {
   static const std::array<std::array<std::string_view, 4>, 3> known{{{"x", "x_m", "easting", "east"},
@@ -42,8 +54,9 @@ std::optional<std::size_t> axis_of(std::string_view name) {
 std::optional<CloudColumns> columns_named(std::string_view line) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   CloudColumns columns{none, none, none};
-  for (std::size_t column = 0; !line.empty(); ++column)
-    if (const auto axis = axis_of(take_field(line)); axis && columns[*axis] == none) columns[*axis] = column;
+  Fields fields(line);
+  for (std::size_t column = 0; fields.more(); ++column)
+    if (const auto axis = axis_of(fields.take()); axis && columns[*axis] == none) columns[*axis] = column;
   if (std::find(columns.begin(), columns.end(), none) != columns.end()) return std::nullopt;
   return columns;
 }
@@ -53,11 +66,12 @@ void parse_point(std::string_view line, const CloudColumns& columns, const std::
                  std::array<double, 3>& point) {
   const std::size_t last = *std::max_element(columns.begin(), columns.end());
   const auto where = [&] { return "cloud '" + path + "', line " + std::to_string(number) + ": "; };
+  Fields fields(line);
   for (std::size_t column = 0; column <= last; ++column) {
-    if (line.empty())
+    if (!fields.more())
       throw Error(where() + "has " + std::to_string(column) + " fields, must have at least " +
                   std::to_string(last + 1));
-    const std::string_view field = take_field(line);
+    const std::string_view field = fields.take();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (columns[axis] != column) continue;
       const auto value = field.empty() ? std::numeric_limits<double>::quiet_NaN() : parse_number(field);

@@ -86,7 +86,6 @@ class HeightMapper : public Node {
         tf_buffer_.clear();
         waiting_ = 1;
       }
-      published_ = ros::Time();
     } else if (!newest_arrived_.isZero()) {
       good("clock", "time runs forward");
     }
@@ -129,7 +128,10 @@ class HeightMapper : public Node {
     good("clouds", fmt::format("{} of {} points used, {} cells refused as outliers", result.used,
                                cloud.size(), result.outlier_cells));
     stamp_ = stamp;
-    if (published_.isZero() || stamp - published_ >= publish_period_) publish();
+    if (stamp < published_ || stamp - published_ >= publish_period_) {
+      publish(stamp);
+      published_ = stamp;
+    }
   }
 
   /// The grid that covers a first cloud.
@@ -158,12 +160,11 @@ class HeightMapper : public Node {
                               geometry.ny(), geometry.cell(), max_cells_));
   }
 
-  void publish() {
+  void publish(const ros::Time& stamp) {
     std_msgs::Header header;
     header.frame_id = frame_;
-    header.stamp = stamp_;
+    header.stamp = stamp;
     map_publisher_.publish(to_message(fusion_->map(), header));
-    published_ = stamp_;
   }
 
   /// The parameter ~map_file, read anew at each call so that `rosparam set` chooses the next file.
@@ -189,7 +190,7 @@ class HeightMapper : public Node {
       require_size(map.geometry());
       const double time = stamp_.isZero() ? 0 : (stamp_ - first_stamp_).toSec();
       fusion_.emplace(map, fusion_parameters_, time);
-      publish_changed_map();
+      publish(stamp_.isZero() ? ros::Time::now() : stamp_);
       return "loaded from " + file;
     });
   }
@@ -198,14 +199,9 @@ class HeightMapper : public Node {
     return answer(response, [this] {
       if (!fusion_) return std::string("there was no map");
       fusion_->clear();
-      publish_changed_map();
+      publish(stamp_.isZero() ? ros::Time::now() : stamp_);
       return std::string("cleared");
     });
-  }
-
-  void publish_changed_map() {
-    if (stamp_.isZero()) stamp_ = first_stamp_ = ros::Time::now();
-    publish();
   }
 
   template <class Work>

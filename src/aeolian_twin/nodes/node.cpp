@@ -5,6 +5,11 @@
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
+namespace {
+
+const std::string diagnostic_period = "diagnostic_period";  // of ROS's own diagnostics [s]
+
+}  // namespace
 
 std::vector<NodeDescription> all_nodes() {
   return {describe_height_mapper(), describe_wind_estimator(), describe_forecaster(), describe_comparator(),
@@ -39,7 +44,7 @@ void Node::onInit() {
   ros::param::get(name, values);
   parameters_ = std::make_unique<Parameters>(declarations_, name, values);
   for (const std::string& unknown : parameters_->unknown())
-    if (unknown != "diagnostic_period")
+    if (unknown != diagnostic_period)
       NODELET_WARN_STREAM(name << "/" << unknown
                                << ": there is no such parameter, see --help; it is ignored");
 
@@ -48,7 +53,8 @@ void Node::onInit() {
   updater_->add("state",
                 [this](diagnostic_updater::DiagnosticStatusWrapper& status) { health_.fill(status); });
   start();
-  timer_ = nh().createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+  const ros::WallDuration period(private_nh().param(diagnostic_period, 1.0));
+  timer_ = nh().createWallTimer(period, [this](const ros::WallTimerEvent&) {
     watch();
     updater_->force_update();
   });

@@ -133,7 +133,7 @@ class SurfaceDisplay : public Node {
     marker.text = text;
     marker.scale.z = 0.05 * geometry.length_x();
     marker.pose.position.x = geometry.origin_x() + geometry.length_x() / 2 + moved[0];
-    marker.pose.position.y = geometry.origin_y() + geometry.length_y() + 0.6 * marker.scale.z + moved[1];
+    marker.pose.position.y = geometry.origin_y() + geometry.length_y() + 0.9 * marker.scale.z + moved[1];
     marker.pose.position.z = lowest(map.layer(heights_)) + moved[2];
     marker.pose.orientation.w = 1;
     marker.color.r = marker.color.g = marker.color.b = 0.15F;

@@ -217,14 +217,11 @@ void simulate(const FieldDay& day, const std::string& directory) {
   });
 }
 
-}  // namespace
-}  // namespace aeolian
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "A virtual field day: DIR/field_day.bag with /points, /wind, /image, /camera_info and /tf_static; the "
-      "true "
-      "elevation of every minute and its ripples in DIR/truth.");
+      "true elevation "
+      "of every minute and its ripples in DIR/truth.");
   std::string config;
   std::string directory;
   std::uint64_t seed = 0;
@@ -236,15 +233,24 @@ int main(int argc, char** argv) {
                                    ->check(CLI::Range(0.001, 1e4));
   try {
     app.parse(argc, argv);
-    aeolian::FieldDay day = aeolian::read_field_day(config);
-    if (seed_option->count() > 0) day.seed = seed;
-    if (minutes_option->count() > 0) day.duration = 60 * minutes;
-    aeolian::simulate(day, directory);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 1;
+  }
+  FieldDay day = read_field_day(config);
+  if (seed_option->count() > 0) day.seed = seed;
+  if (minutes_option->count() > 0) day.duration = 60 * minutes;
+  simulate(day, directory);
+  return 0;
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  try {
+    return aeolian::run(argc, argv);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "simulate_field: %s\n", e.what());
     return 1;
   }
-  return 0;
 }

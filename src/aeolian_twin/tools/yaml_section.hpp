@@ -14,8 +14,9 @@
 
 namespace aeolian {
 
-/// A section of a YAML file, read strictly: every key must be there, be of its type and in its range, and no
-/// other may be. Errors name the file, the line, the key with its sections, the value and what is allowed.
+/// A section of a YAML file, read strictly: every key that is asked for must be there, be of its type and in
+/// its range, and no other may be. Errors name the file, the line, the key with its sections, the value and
+/// what is allowed.
 ///
 ///     YamlSection root = YamlSection::load(path);
 ///     YamlSection wind = root.section("wind");
@@ -28,7 +29,7 @@ class YamlSection {
       return {YAML::LoadFile(path), path, ""};
     } catch (const YAML::BadFile&) {
       throw Error(path + ": cannot be read");
-    } catch (const YAML::ParserException& e) {
+    } catch (const YAML::Exception& e) {
       throw Error(fmt::format("{}:{}: {}", path, e.mark.line + 1, e.msg));
     }
   }
@@ -63,6 +64,28 @@ class YamlSection {
     constexpr double far = 1000;
     return {checked(key, node[0], -far, far), checked(key, node[1], -far, far),
             checked(key, node[2], -far, far)};
+  }
+
+  /// For keys that may be absent.
+  bool has(const std::string& key) const {
+    const YAML::Node node = node_[key];
+    return node.IsDefined() && !node.IsNull();
+  }
+
+  /// A list of numbers; exactly `count` of them unless that is zero.
+  std::vector<double> numbers(const std::string& key, std::size_t count = 0) {
+    const YAML::Node node = take(key);
+    if (!node.IsSequence() || (count > 0 && node.size() != count))
+      fail(key, node,
+           count > 0 ? fmt::format("must be a list of {} numbers", count) : "must be a list of numbers");
+    std::vector<double> result;
+    for (const YAML::Node& element : node) result.push_back(checked(key, element, -1e12, 1e12));
+    return result;
+  }
+
+  /// Throws Error about the value of a key that is there.
+  [[noreturn]] void refuse(const std::string& key, const std::string& rule) const {
+    fail(key, node_[key], rule);
   }
 
   YamlSection section(const std::string& key) { return {take(key), path_, full(key)}; }

@@ -1,5 +1,6 @@
 #include "aeolian_core/measure/virtual_scanner.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -98,11 +99,33 @@ TEST(VirtualScanner, RangesToALevelBedAreAnalytic) {
   ASSERT_EQ(cloud.size(), 41U * 31U);
   for (int r = 0; r < 31; ++r)
     for (int c = 0; c < 41; ++c) {
+      const auto i = static_cast<std::size_t>(r * 41 + c);
+      EXPECT_NEAR(cloud.z[i], 1.15, 1e-6);
       const double a = ((c + 0.5) / 41 - 0.5) * scanner.field_of_view_x;
       const double b = ((r + 0.5) / 31 - 0.5) * scanner.field_of_view_y;
-      EXPECT_NEAR(range(cloud, static_cast<std::size_t>(r * 41 + c)), 1.15 / (std::cos(a) * std::cos(b)),
-                  1e-6);
+      EXPECT_NEAR(std::atan2(cloud.x[i], cloud.z[i]), a, 0.501 * scanner.field_of_view_x / 41);
+      EXPECT_NEAR(std::asin(static_cast<double>(cloud.y[i]) / range(cloud, i)), b,
+                  0.501 * scanner.field_of_view_y / 31);
     }
+}
+
+// Fixed directions would pass over the same ground each time: most cells must be seen within ten sparse
+// scans.
+TEST(VirtualScanner, SweepsStartAtDifferentPhases) {
+  VirtualScanner scanner;
+  scanner.pose = tripod(0, 0, 1, 0);
+  scanner.columns = 50;
+  scanner.rows = 50;
+  scanner.field_of_view_x = scanner.field_of_view_y = 0.5;
+  scanner.dropout = 0;
+  const GridGeometry g(-0.2, -0.2, 0.004, 100, 100);
+  std::vector<bool> seen(g.size());
+  for (std::uint64_t k = 0; k < 10; ++k) {
+    const auto cloud = scanner.scan(level(g, 0), 1, k);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (const auto cell = g.find(cloud.x[i], -cloud.y[i])) seen[g.index(*cell)] = true;
+  }
+  EXPECT_GT(std::count(seen.begin(), seen.end(), true), 0.75 * static_cast<double>(g.size()));
 }
 
 // A wall 5 cm high across the view: behind it nothing is seen for height * distance / (tripod height - wall

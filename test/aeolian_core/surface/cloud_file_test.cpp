@@ -163,9 +163,10 @@ TEST_F(CloudFile, AHeaderLinePicksTheColumns) {
 }
 
 TEST_F(CloudFile, AnEmptyFieldIsUnknown) {
-  const PointCloud cloud = read("a.csv", "x,y,z\n1,,3\n1,2,3\n");
-  ASSERT_EQ(cloud.size(), 2U);
+  const PointCloud cloud = read("a.csv", "x,y,z\n1,,3\n,,\n1,2,3\n");
+  ASSERT_EQ(cloud.size(), 3U);
   EXPECT_TRUE(std::isnan(cloud.y[0]));
+  EXPECT_TRUE(std::isnan(cloud.z[1]));
 }
 
 TEST_F(CloudFile, ReadsBackTheTableOfAMap) {

@@ -1,0 +1,149 @@
+#include "aeolian_core/bedforms/ripple_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "aeolian_core/bedforms/avalanche.hpp"
+#include "aeolian_core/bedforms/impact_sweep.hpp"
+#include "aeolian_core/bedforms/relief.hpp"
+#include "aeolian_core/bedforms/slope_flux.hpp"
+#include "aeolian_core/bedforms/wind_frame.hpp"
+#include "aeolian_core/surface/error.hpp"
+
+namespace aeolian {
+namespace {
+
+/// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
+/// cell. Half of it is stable; a quarter keeps the error of the growth rate below that of the cells.
+constexpr double step_limit = 0.25;
+
+void require(bool allowed, const char* name, double value, const char* range) {
+  if (!allowed)
+    throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
+}
+
+/// Tiles in which a slope, to any of the eight neighbours, exceeds repose.
+TileMask too_steep(const GridGeometry& g, const std::vector<double>& height, double tan_repose,
+                   bool periodic) {
+  const double straight = tan_repose * g.cell() * 1.001;
+  const double diagonal = straight * std::sqrt(2.0);
+  TileMask result(g);
+  for (int y = 0; y < g.ny(); ++y) {
+    const int up = y + 1 < g.ny() ? y + 1 : 0;
+    const bool has_up = y + 1 < g.ny() || periodic;
+    for (int x = 0; x < g.nx(); ++x) {
+      const int right = x + 1 < g.nx() ? x + 1 : 0;
+      const bool has_right = x + 1 < g.nx() || periodic;
+      const double here = height[g.index(x, y)];
+      const bool steep = (has_right && std::abs(height[g.index(right, y)] - here) > straight) ||
+                         (has_up && std::abs(height[g.index(x, up)] - here) > straight) ||
+                         (has_right && has_up &&
+                          (std::abs(height[g.index(right, up)] - here) > diagonal ||
+                           std::abs(height[g.index(right, y)] - height[g.index(x, up)]) > diagonal));
+      if (!steep) continue;
+      result.activate(x, y);
+      result.activate(right, up);
+    }
+  }
+  return result;
+}
+
+TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
+                       const std::vector<double>& after) {
+  TileMask result(g);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      if (before[g.index(x, y)] != after[g.index(x, y)]) result.activate(x, y);
+  return result;
+}
+
+/// Writes heights into the known cells of a layer of floats. What rounding takes from a cell is given to the
+/// next known one, so that the layer's sum is right to the rounding of one cell.
+void store(const std::vector<double>& height, HeightMap::Layer& layer) {
+  double carry = 0;
+  for (std::size_t i = 0; i < layer.size(); ++i) {
+    if (!std::isfinite(layer[i])) continue;
+    layer[i] = static_cast<float>(height[i] + carry);
+    carry += height[i] - static_cast<double>(layer[i]);
+  }
+}
+
+}  // namespace
+
+RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(parameters) {
+  require(parameters.slope_effect >= 0 && std::isfinite(parameters.slope_effect), "slope_effect",
+          parameters.slope_effect, "zero or more and finite");
+  require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
+          parameters.lateral_spread, "zero or more and finite");
+  require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
+}
+
+BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double duration) {
+  HeightMap::Layer& elevation = map.layer(layer::elevation);
+  if (parameters_.border == Border::periodic && count_known(elevation) != elevation.size())
+    throw Error("ripple model: a periodic map must be known everywhere");
+  check(forcing, duration);
+  if (forcing.erosion_rate() * forcing.reptation_length * duration == 0)
+    return {TileMask(map.geometry()), {}};
+  const HeightMap::Layer whole = filled(map.geometry(), elevation);
+  std::vector<double> height(whole.begin(), whole.end());
+  BedChange change = advance(map.geometry(), height, forcing, duration);
+  store(height, elevation);
+  return change;
+}
+
+BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
+                               const Forcing& forcing, double duration) {
+  check(forcing, duration);
+  const double erosion_rate = forcing.erosion_rate();
+  const double hop = forcing.reptation_length;
+  if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
+
+  const bool periodic = parameters_.border == Border::periodic;
+  const double cell = geometry.cell();
+  const double tan_impact = std::tan(forcing.impact_angle);
+  const double tan_repose = std::tan(forcing.grain.angle_of_repose);
+  const double spread = parameters_.lateral_spread * hop / cell;
+  const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
+  const WindFrame frame(geometry, forcing.direction, periodic);
+  ImpactSweep impacts(frame, tan_impact, hop);
+
+  const std::vector<double> start = height;
+  std::vector<double> dune, bed, above(height.size()), deposition, scratch;
+  frame.enter(dune_surface(geometry, height, parameters_.relief_scale, periodic), dune);
+  frame.enter(height, bed);
+
+  VolumeBalance volume;
+  const double steps =
+      std::max(1.0, std::ceil(duration * erosion_rate / (step_limit * frame.step() * tan_impact)));
+  const double dt = duration / steps;
+  const double depth = erosion_rate * dt;
+  const double area = cell * cell;
+  for (double step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < bed.size(); ++i) above[i] = bed[i] - dune[i];
+    impacts.run(above);
+    deposition = impacts.deposition();
+    spread_across(frame, spread, deposition, scratch);
+    double eroded = 0;
+    for (std::size_t i = 0; i < bed.size(); ++i) {
+      bed[i] += depth * (deposition[i] - impacts.erosion()[i]);
+      eroded += impacts.erosion()[i];
+    }
+    volume.moved += eroded * depth * area;
+    volume.inflow += impacts.inflow() * depth * area;
+    volume.outflow += impacts.outflow() * depth * area;
+    apply_slope_flux(frame, cell, slope_scale, deposition, dt, bed, scratch);
+
+    frame.leave(bed, height);
+    TileMask steep = too_steep(geometry, height, tan_repose, periodic);
+    if (!steep.empty()) {
+      volume.moved += avalanche(geometry, height, tan_repose, periodic, steep);
+      frame.enter(height, bed);
+    }
+  }
+  for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;
+  return {changed_tiles(geometry, start, height), volume};
+}
+
+}  // namespace aeolian
