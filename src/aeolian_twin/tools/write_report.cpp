@@ -237,14 +237,10 @@ class RunReader {
   Run run_;
 };
 
-}  // namespace
-}  // namespace aeolian
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Writes a page with pictures and tables about a run of the twin: measured map, forecast, difference, "
-      "growth "
-      "of the ripples, skill.");
+      "growth of the ripples, skill.");
   std::string bag;
   std::string directory;
   std::string truth;
@@ -255,13 +251,22 @@ int main(int argc, char** argv) {
   app.add_option("--truth", truth, "directory that simulate_field wrote: compares with the true surface too");
   try {
     app.parse(argc, argv);
-    aeolian::write_report(aeolian::RunReader(bag, truth).read(), directory);
-    std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
+  }
+  write_report(RunReader(bag, truth).read(), directory);
+  std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
+  return 0;
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  try {
+    return aeolian::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_report: %s\n", error.what());
     return 1;
   }
-  return 0;
 }
