@@ -146,7 +146,10 @@ class HeightMapper : public Node {
       box.extend((pose * point).head<2>());
     }
     if (box.isEmpty()) throw Error(fmt::format("none of {} points is finite and within range", cloud.size()));
-    return GridGeometry::covering(box.min().x(), box.min().y(), box.max().x(), box.max().y(), cell_size_);
+    const double margin =
+        1e-3 * cell_size_;  // cells are half open: a point on the far border is inside the next
+    return GridGeometry::covering(box.min().x(), box.min().y(), box.max().x() + margin,
+                                  box.max().y() + margin, cell_size_);
   }
 
   void begin_map(const GridGeometry& geometry) {
