@@ -171,16 +171,18 @@ class RunReader {
 
   void add_state(const GridMap& message) {
     const ros::Time stamp = message.info.header.stamp;
-    if (!run_.states.empty() && stamp <= last_map_) return;  // a latched map again, or a bag that was looped
+    if (!run_.states.empty() && stamp < last_map_) return;  // a bag that was looped
+    // Two sensors may have seen the same moment, and a latched map may come again: the last one counts.
+    if (!run_.states.empty() && stamp == last_map_) run_.states.pop_back();
     const HeightMap map = to_height_map(message);
     const HeightMap::Layer& elevation = map.layer(layer::elevation);
     const double direction = std::isnan(run_.wind_direction) ? 0 : run_.wind_direction;
     const RippleStatistics ripples = ripple_statistics(map.geometry(), elevation, direction);
-    const ros::Time since = run_.states.empty() ? start_ : last_map_;
+    if (stamp != last_map_) map_before_ = run_.states.empty() ? start_ : last_map_;
     run_.states.push_back(
         {seconds(stamp), ripples.wavelength, ripples.height,
          static_cast<double>(count_known(elevation)) / static_cast<double>(elevation.size()),
-         wind_.friction_velocity(since, stamp)});
+         wind_.friction_velocity(map_before_, stamp)});
     last_map_ = stamp;
   }
 
@@ -232,7 +234,8 @@ class RunReader {
   RecordedTwin twin_;
   WindHistory wind_;
   ros::Time start_;
-  ros::Time last_map_;
+  ros::Time last_map_;    ///< of the newest state
+  ros::Time map_before_;  ///< of the state before it
   std::optional<Truth> truth_;
   Run run_;
 };
