@@ -133,6 +133,7 @@ class Comparator : public Node {
     HeightMap::Layer& values = difference.add("difference");
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = predicted[i] - heights[i];
     difference.add(layer::elevation, heights);
+    difference.add(layer::lead_time, forecast.layer(layer::lead_time));
     difference_publisher_.publish(to_message(difference, measured_message.info.header));
     good("forecast",
          fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of {:.2f} against "

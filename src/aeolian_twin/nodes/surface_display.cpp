@@ -30,6 +30,7 @@ class SurfaceDisplay : public Node {
     if (parameters().numbers("offset").size() != 3) parameters().refuse("offset", "a list of three numbers");
     std::copy_n(parameters().numbers("offset").begin(), 3, offset_.begin());
     centred_ = parameters().flag("centred");
+    shaded_ = parameters().flag("shaded");
     exaggeration_ = parameters().number("exaggeration");
     max_cells_ = parameters().number("max_mesh_cells");
     title_ = parameters().text("title");
@@ -86,9 +87,19 @@ class SurfaceDisplay : public Node {
     result.layer = heights_;
     result.exaggeration = exaggeration_;
     result.offset = offset(map.geometry());
-    result.colours = shaded_colours(map.geometry(), map.layer(values_), palette_, shown, &map.layer(heights_),
-                                    exaggeration_);
+    result.colours = shaded_ ? shaded_colours(map.geometry(), map.layer(values_), palette_, shown,
+                                              &map.layer(heights_), exaggeration_)
+                             : plain_colours(map.layer(values_), shown);
     return result;
+  }
+
+  std::vector<Rgb> plain_colours(const HeightMap::Layer& values, const ValueRange& shown) const {
+    const double extent = shown.high > shown.low ? shown.high - shown.low : 1;
+    std::vector<Rgb> colours;
+    colours.reserve(values.size());
+    for (const float v : values)
+      colours.push_back(colour(palette_, (static_cast<double>(v) - shown.low) / extent));
+    return colours;
   }
 
   std::array<double, 3> offset(const GridGeometry& geometry) const {
@@ -157,6 +168,7 @@ class SurfaceDisplay : public Node {
   ValueRange range_;
   std::array<double, 3> offset_{};
   bool centred_ = false;
+  bool shaded_ = true;
   double exaggeration_ = 1;
   double max_cells_ = 0;
   std::string title_;
@@ -180,6 +192,7 @@ NodeDescription describe_surface_display() {
               {"range_low", 0.0, "m", "value of the first colour; equal to range_high: chosen from the map",
                Limits::any()},
               {"range_high", 0.0, "m", "value of the last colour", Limits::any()},
+              {"shaded", true, "", "slopes are darker or brighter, as under a lamp in the north-west"},
               {"exaggeration", 3.0, "", "factor on the heights as drawn", Limits::positive()},
               {"offset", std::vector<double>{0, 0, 0}, "map lengths, map lengths, m",
                "drawn so far beside its place", Limits::any()},
