@@ -96,6 +96,11 @@ BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double du
 BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
                                const Forcing& forcing, double duration) {
   check(forcing, duration);
+  if (height.size() != geometry.size())
+    throw Error("ripple model: " + std::to_string(height.size()) + " heights for " +
+                std::to_string(geometry.size()) + " cells");
+  if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
+    throw Error("ripple model: a height is not finite");
   const double erosion_rate = forcing.erosion_rate();
   const double hop = forcing.reptation_length;
   if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};

@@ -12,8 +12,6 @@
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 
-extern char** environ;
-
 namespace aeolian {
 namespace {
 

@@ -101,9 +101,9 @@ TruthStatistics compare_with_truth(const Run& run, const Directory& directory) {
     result.forecast = difference_statistics(on_grid(run.forecast, grid).layer(layer::elevation), truth);
   const HeightMap::Layer errors = difference(measured, truth);
   draw_differences(grid, errors, display_range(errors, Palette::diverging), directory.file("map_error.png"));
-  result.picture = {
-      "map_error.png", "What the sensor missed: measured minus true surface",
-      "Noise and hidden slopes of the measurement. Mind that the colours have a range of their own."};
+  result.picture = {"map_error.png", "What the sensor missed: measured minus true surface",
+                    "Fine grain is noise. Bands along the ripples mean that the map lags behind the moving "
+                    "sand or flattens it. Mind that the colours have a range of their own."};
   return result;
 }
 

@@ -116,10 +116,9 @@ void write_truth(std::ostream& out, const TruthStatistics& truth) {
     if (truth.forecast) out << "<td>" << number_text((*truth.forecast).*number * unit.factor) << "</td>";
     out << "</tr>\n";
   };
-  out << "<h2>How good is the measured map itself?</h2>\n<p>This run was simulated, so the true surface is "
-         "known. What "
-         "separates the measured map from it is the limit below which no error of a forecast can be "
-         "seen.</p>\n"
+  out << "<h2>How good is the measured map itself?</h2>\n<p>The true surface of this run is known. Forecasts "
+         "are scored against the measured map, so what separates that map from the truth is part of their "
+         "errors.</p>\n"
       << "<div class=\"maps\">\n"
       << figure(truth.picture)
       << "<div class=\"table beside\"><table>\n<thead><tr><th>Against the true surface</th><th>measured "
@@ -190,7 +189,11 @@ std::string report_page(const PageContents& contents) {
       << escape_html(run.title) << "</title>\n<style>" << report_style
       << "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>" << escape_html(run.title) << "</h1>\n";
   if (!run.source.empty()) out << "<p class=\"source\">From " << escape_html(run.source) << "</p>\n";
-  out << "<p class=\"verdict\">" << escape_html(verdict(run, contents.leads)) << "</p>\n</header>\n";
+  out << "<p class=\"verdict\">" << escape_html(verdict(run, contents.leads));
+  if (contents.truth)
+    out << " The measured map itself is off the true surface by "
+        << length_text(contents.truth->measured.rmse) << ".";
+  out << "</p>\n</header>\n";
   if (!contents.leads.empty()) write_cards(out, contents.leads.back());
 
   out << "<h2>The surface, measured and forecast</h2>\n<p>North is up. Light falls from the north-west. "

@@ -22,6 +22,7 @@ Spread LeadSummary::spread(double Comparison::*number) const {
 
 std::vector<LeadSummary> summarise_by_lead(const std::vector<Run::Score>& scores) {
   std::vector<const Run::Score*> sorted;
+  sorted.reserve(scores.size());
   for (const Run::Score& score : scores) sorted.push_back(&score);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Run::Score* a, const Run::Score* b) { return a->lead_time < b->lead_time; });

@@ -6,9 +6,9 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/twin/comparison.hpp"
 #include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/on_grid.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/node.hpp"
@@ -139,16 +139,6 @@ class Comparator : public Node {
          fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of {:.2f} against "
                      "persistence",
                      (header.stamp - issued).toSec(), 1e3 * comparison.rmse, comparison.skill_persistence));
-  }
-
-  static HeightMap on_grid(HeightMap map, const GridGeometry& target) {
-    const GridGeometry& own = map.geometry();
-    const double slack = 1e-6 * target.cell();  // messages hold centres, which round
-    const bool same = own.nx() == target.nx() && own.ny() == target.ny() &&
-                      std::abs(own.cell() - target.cell()) < slack &&
-                      std::abs(own.origin_x() - target.origin_x()) < slack &&
-                      std::abs(own.origin_y() - target.origin_y()) < slack;
-    return same ? std::move(map) : resample(map, target);
   }
 
   /// To a microsecond, as the layer holds floats.

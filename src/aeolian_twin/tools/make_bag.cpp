@@ -230,25 +230,30 @@ Wind: columns t_s, speed_m_s and direction_deg (where it blows to, counter-clock
 height of the first cloud, or 0.
 Times: seconds on one clock, read to the nanosecond; t_s counts from wind.start (default 0).)";
 
-}  // namespace
-}  // namespace aeolian
-
-int main(int argc, char** argv) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  CLI::App app(aeolian::description);
+int run(int argc, char** argv) {
+  CLI::App app(description);
   std::string manifest;
   std::string bag;
   app.add_option("MANIFEST", manifest, "YAML file that lists the files")->required();
   app.add_option("BAG", bag, "bag to write")->required();
   try {
     app.parse(argc, argv);
-    const std::string summary = aeolian::make_bag(manifest, bag);
-    std::printf("%s: %s\n", bag.c_str(), summary.c_str());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
+  }
+  fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
+  return 0;
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  try {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    return aeolian::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_bag: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -171,16 +171,18 @@ class RunReader {
 
   void add_state(const GridMap& message) {
     const ros::Time stamp = message.info.header.stamp;
-    if (!run_.states.empty() && stamp <= last_map_) return;  // a latched map again, or a bag that was looped
+    if (!run_.states.empty() && stamp < last_map_) return;  // a bag that was looped
+    // Two sensors may have seen the same moment, and a latched map may come again: the last one counts.
+    if (!run_.states.empty() && stamp == last_map_) run_.states.pop_back();
     const HeightMap map = to_height_map(message);
     const HeightMap::Layer& elevation = map.layer(layer::elevation);
     const double direction = std::isnan(run_.wind_direction) ? 0 : run_.wind_direction;
     const RippleStatistics ripples = ripple_statistics(map.geometry(), elevation, direction);
-    const ros::Time since = run_.states.empty() ? start_ : last_map_;
+    if (stamp != last_map_) map_before_ = run_.states.empty() ? start_ : last_map_;
     run_.states.push_back(
         {seconds(stamp), ripples.wavelength, ripples.height,
          static_cast<double>(count_known(elevation)) / static_cast<double>(elevation.size()),
-         wind_.friction_velocity(since, stamp)});
+         wind_.friction_velocity(map_before_, stamp)});
     last_map_ = stamp;
   }
 
@@ -232,19 +234,16 @@ class RunReader {
   RecordedTwin twin_;
   WindHistory wind_;
   ros::Time start_;
-  ros::Time last_map_;
+  ros::Time last_map_;    ///< of the newest state
+  ros::Time map_before_;  ///< of the state before it
   std::optional<Truth> truth_;
   Run run_;
 };
 
-}  // namespace
-}  // namespace aeolian
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Writes a page with pictures and tables about a run of the twin: measured map, forecast, difference, "
-      "growth "
-      "of the ripples, skill.");
+      "growth of the ripples, skill.");
   std::string bag;
   std::string directory;
   std::string truth;
@@ -255,13 +254,22 @@ int main(int argc, char** argv) {
   app.add_option("--truth", truth, "directory that simulate_field wrote: compares with the true surface too");
   try {
     app.parse(argc, argv);
-    aeolian::write_report(aeolian::RunReader(bag, truth).read(), directory);
-    std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
+  }
+  write_report(RunReader(bag, truth).read(), directory);
+  std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
+  return 0;
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  try {
+    return aeolian::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_report: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -1,0 +1,107 @@
+/// How fast beds move: cell updates of the ripple model, ejections of the lattice bed, and the exposure
+/// kernel against the bandwidth of this machine's memory, measured in the same run.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "aeolian_core/bedforms/bedforms.hpp"
+
+namespace aeolian {
+namespace {
+
+constexpr double cell = 0.002;
+
+Forcing wind(double direction) {
+  Grain grain;
+  grain.diameter = 0.0004;
+  return make_forcing(steady_saltation(0.45, grain), direction, grain, Splash{});
+}
+
+/// Bytes per second of memcpy, read and written, over buffers that no cache holds.
+double memory_bandwidth() {
+  static const double measured = [] {
+    std::vector<char> from(std::size_t{1} << 28, 1);
+    std::vector<char> to(from.size(), 2);
+    double fastest = 1e300;
+    for (int n = 0; n < 5; ++n) {
+      const auto start = std::chrono::steady_clock::now();
+      std::memcpy(to.data(), from.data(), from.size());
+      benchmark::DoNotOptimize(to.data());
+      benchmark::ClobberMemory();
+      fastest =
+          std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return 2 * static_cast<double>(from.size()) / fastest;
+  }();
+  return measured;
+}
+
+std::vector<double> rippled(std::size_t cells) {
+  std::vector<double> h(cells);
+  for (std::size_t i = 0; i < cells; ++i) h[i] = 0.004 * std::sin(0.07 * static_cast<double>(i));
+  return h;
+}
+
+/// Ripples on 512 x 512 cells for 10 s; the argument is the wind's direction in degrees.
+void ripple_model(benchmark::State& state) {
+  const GridGeometry g(0, 0, cell, 512, 512);
+  const Forcing forcing = wind(static_cast<double>(state.range(0)) * M_PI / 180);
+  const double duration = 10;
+  RippleModel model(RippleParameters{});
+  std::vector<double> h(g.size());
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      h[g.index(x, y)] = 0.003 * std::sin(60 * (g.x(x) + 0.05 * std::sin(20 * g.y(y))));
+  for (auto _ : state) {
+    model.advance(g, h, forcing, duration);
+    benchmark::DoNotOptimize(h.data());
+  }
+  // The unit of work is a cell over the time in which a flat bed loses half the drop of a falling grain over
+  // one cell: the longest stable explicit step, whatever steps the model takes.
+  const double step = 0.5 * cell * std::tan(forcing.impact_angle) / forcing.erosion_rate();
+  state.counters["cell_updates/s"] = benchmark::Counter(static_cast<double>(g.size()) * duration / step,
+                                                        benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["times_real_time"] =
+      benchmark::Counter(duration, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(ripple_model)->Arg(0)->Arg(5)->Arg(45)->Arg(90)->Unit(benchmark::kMillisecond);
+
+/// A lattice of 1 m x 0.5 m at 0.8 mm that has no ripples yet; the argument is the wind's direction in
+/// degrees.
+void lattice_bed(benchmark::State& state) {
+  const Forcing forcing = wind(static_cast<double>(state.range(0)) * M_PI / 180);
+  LatticeBed bed(1250, 626, 0.0008, forcing.grain.angle_of_repose, 1);
+  for (auto _ : state) bed.advance(forcing, 2);
+  state.counters["ejections/s"] =
+      benchmark::Counter(static_cast<double>(bed.ejections()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(lattice_bed)->Arg(0)->Arg(5)->Arg(90)->Unit(benchmark::kMillisecond);
+
+/// Exposure of rows that together fit no cache: it must read heights and write exposures, 16 bytes a cell.
+void exposure_kernel(benchmark::State& state) {
+  constexpr std::size_t count = 1024;
+  constexpr std::size_t rows = 8192;
+  const std::vector<double> h = rippled(count * rows);
+  std::vector<double> exposure(h.size());
+  const double drop = cell * std::tan(0.2);
+  for (auto _ : state) {
+    for (std::size_t row = 0; row < rows; ++row)
+      exposure_open(&h[row * count], count, drop, h[row * count], &exposure[row * count]);
+    benchmark::DoNotOptimize(exposure.data());
+    benchmark::ClobberMemory();
+  }
+  const double bytes = 16 * static_cast<double>(h.size());
+  state.counters["cells/s"] =
+      benchmark::Counter(static_cast<double>(h.size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["of_bandwidth"] =
+      benchmark::Counter(bytes / memory_bandwidth(), benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(exposure_kernel)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace aeolian
