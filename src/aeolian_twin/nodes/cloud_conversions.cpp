@@ -100,4 +100,30 @@ PointCloud to_point_cloud(const PointCloud2& message) {
   return cloud;
 }
 
+sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width) {
+  sensor_msgs::PointCloud2 message;
+  for (const char* name : {"x", "y", "z"}) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    message.fields.push_back(field);
+  }
+  message.width = static_cast<std::uint32_t>(width > 0 ? width : cloud.size());
+  message.height = static_cast<std::uint32_t>(width > 0 ? cloud.size() / width : 1);
+  message.point_step = 3 * sizeof(float);
+  message.row_step = message.point_step * message.width;
+  message.data.resize(std::size_t{message.row_step} * message.height);
+  bool dense = true;
+  std::uint8_t* to = message.data.data();
+  for (std::size_t i = 0; i < cloud.size(); ++i, to += message.point_step) {
+    const std::array<float, 3> point{cloud.x[i], cloud.y[i], cloud.z[i]};
+    std::memcpy(to, point.data(), sizeof(point));
+    dense = dense && std::isfinite(point[0]);
+  }
+  message.is_dense = dense;
+  return message;
+}
+
 }  // namespace aeolian

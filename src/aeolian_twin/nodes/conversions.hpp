@@ -34,6 +34,9 @@ HeightMap to_height_map(const grid_map_msgs::GridMap& message);
 /// Throws Error for a field x, y or z that is missing or of another type, and for data whose size does not
 /// fit.
 PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message);
+/// x, y, z as floats about the cloud's origin, in the cloud's order, in rows of `width` points (0: one row).
+/// The header is the caller's.
+sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width = 0);
 
 /// The wind at the surface as a map: that of the cells, or a single cell over `extent` when it is the same
 /// everywhere. Layers friction_velocity [m/s], direction [rad], air_density [kg/m^3].

@@ -11,12 +11,13 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "aeolian_core/measure/measure.hpp"
+#include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/tools/field_day.hpp"
+#include "aeolian_twin/tools/static_frames.hpp"
 
 namespace aeolian {
 
@@ -29,7 +30,7 @@ class FieldBag {
   }
   void close() { bag_.close(); }
 
-  /// The sensors' places in `map`, latched, so that a player shows them to whoever comes late.
+  /// The sensors' places in `map`.
   void write_frames(const FieldDay& day) {
     tf2_msgs::TFMessage frames;
     const auto add = [&](const std::string& name, const Eigen::Isometry3d& pose) {
@@ -42,15 +43,7 @@ class FieldBag {
     for (std::size_t i = 0; i < day.scanners.size(); ++i) add(scanner_frame(i), day.scanners[i].pose);
     add("camera", day.camera.pose);
     add("anemometer", day.anemometer_pose);
-    namespace traits = ros::message_traits;
-    const auto connection = boost::make_shared<ros::M_string>(
-        ros::M_string{{"topic", "/tf_static"},
-                      {"type", traits::datatype<tf2_msgs::TFMessage>()},
-                      {"md5sum", traits::md5sum<tf2_msgs::TFMessage>()},
-                      {"message_definition", traits::definition<tf2_msgs::TFMessage>()},
-                      {"callerid", "/simulate_field"},
-                      {"latching", "1"}});
-    bag_.write("/tf_static", stamp(0), frames, connection);
+    write_static_frames(bag_, frames, stamp(0), "simulate_field");
   }
 
   void write(const VirtualAnemometer::Sample& sample) {
@@ -62,25 +55,8 @@ class FieldBag {
 
   /// A scan of the scanner of a number.
   void write(const PointCloud& cloud, const VirtualScanner& scanner, std::size_t number, double time) {
-    sensor_msgs::PointCloud2 message;
-    message.width = static_cast<std::uint32_t>(scanner.columns);
-    message.height = static_cast<std::uint32_t>(scanner.rows);
-    for (const char* name : {"x", "y", "z"}) {
-      sensor_msgs::PointField field;
-      field.name = name;
-      field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
-      field.datatype = sensor_msgs::PointField::FLOAT32;
-      field.count = 1;
-      message.fields.push_back(field);
-    }
-    message.point_step = 3 * sizeof(float);
-    message.row_step = message.point_step * message.width;
-    message.is_dense = 0;
-    message.data.resize(std::size_t{message.row_step} * message.height);
-    auto* to = reinterpret_cast<float*>(message.data.data());
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      for (const float value : {cloud.x[i], cloud.y[i], cloud.z[i]}) *to++ = value;
-    write("/points", time, scanner_frame(number), std::move(message));
+    write("/points", time, scanner_frame(number),
+          to_message(cloud, static_cast<std::size_t>(scanner.columns)));
   }
 
   /// A photograph and the camera's intrinsics.

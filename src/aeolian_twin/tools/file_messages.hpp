@@ -1,10 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -12,40 +10,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/surface/point_cloud.hpp"
 #include "aeolian_twin/tools/yaml_section.hpp"
 
 namespace aeolian {
-
-/// x, y, z as floats about the cloud's origin, in the file's order.
-inline sensor_msgs::PointCloud2 to_message(const PointCloud& cloud) {
-  sensor_msgs::PointCloud2 message;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    message.fields.push_back(field);
-  }
-  message.height = 1;
-  message.width = static_cast<std::uint32_t>(cloud.size());
-  message.point_step = 3 * sizeof(float);
-  message.row_step = message.point_step * message.width;
-  message.data.resize(message.row_step);
-  bool dense = true;
-  std::uint8_t* to = message.data.data();
-  for (std::size_t i = 0; i < cloud.size(); ++i, to += message.point_step) {
-    const std::array<float, 3> point{cloud.x[i], cloud.y[i], cloud.z[i]};
-    std::memcpy(to, point.data(), sizeof(point));
-    dense = dense && std::isfinite(point[0]);
-  }
-  message.is_dense = dense;
-  return message;
-}
 
 /// A photo in any format that OpenCV reads, upright as its EXIF data say; grey or colour, 8 or 16 bits.
 /// Throws Error naming the file.

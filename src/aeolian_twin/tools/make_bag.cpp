@@ -18,8 +18,10 @@
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"
 #include "aeolian_core/wind/wind_record.hpp"
+#include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/tools/file_messages.hpp"
 #include "aeolian_twin/tools/manifest.hpp"
+#include "aeolian_twin/tools/static_frames.hpp"
 
 namespace aeolian {
 namespace {
@@ -154,21 +156,13 @@ class BagMaker {
     write("/wind", "anemometer", stamp, std::move(message));
   }
 
-  /// The anemometer's place, latched, so that a player shows it to whoever comes late.
+  /// The anemometer's place.
   void write_mast(const ros::Time& stamp) {
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
     place.translation().z() = ground() + manifest_.wind->height;
     tf2_msgs::TFMessage frames;
     frames.transforms.push_back(transform(manifest_.frame_id, "anemometer", place, stamp));
-    namespace traits = ros::message_traits;
-    const auto connection = boost::make_shared<ros::M_string>(
-        ros::M_string{{"topic", "/tf_static"},
-                      {"type", traits::datatype<tf2_msgs::TFMessage>()},
-                      {"md5sum", traits::md5sum<tf2_msgs::TFMessage>()},
-                      {"message_definition", traits::definition<tf2_msgs::TFMessage>()},
-                      {"callerid", "/make_bag"},
-                      {"latching", "1"}});
-    bag_.write("/tf_static", stamp, frames, connection);
+    write_static_frames(bag_, frames, stamp, "make_bag");
   }
 
   /// The ground's height in the map: the median of the first cloud, zero when its place in the map is not
