@@ -7,17 +7,19 @@
 
 namespace aeolian {
 
-ImpactSweep::ImpactSweep(const WindFrame& frame, double tan_impact_angle, double hop)
+ImpactSweep::ImpactSweep(const WindFrame& frame, double tan_impact_angle, double hop, double shortening)
     : frame_(frame),
       drop_(frame.step() * tan_impact_angle),
       carried_(std::exp(-frame.step() / hop)),
       launched_(-std::expm1(-frame.step() / hop) * hop / frame.step()),
+      shortening_(shortening / hop),
       line_height_(frame.stations()),
       line_exposure_(frame.stations() + 1),
       line_erosion_(frame.stations()),
       line_deposition_(frame.stations()),
       envelope_(frame.rows()),
       first_height_(frame.rows()),
+      last_height_(frame.rows()),
       sent_(frame.rows()),
       received_(frame.rows()),
       erosion_(frame.stations() * frame.rows()),
@@ -108,13 +110,25 @@ void ImpactSweep::erode(Stretch stretch, double envelope) {
     line_erosion_[stretch.begin + i] = 0.5 * (exposure[i] + exposure[i + 1]);
 }
 
+/// What a rise since take-off takes from the flux through a face, at the height of the bed there.
+double ImpactSweep::shift(Flux flux, double height) const {
+  return shortening_ * (flux.heights - height * flux.grains);
+}
+
 /// Carries the reptation flux along a line and drops it, both averaged over cells: exact for sources that are
-/// uniform in each cell. Returns the flux that leaves.
-double ImpactSweep::hop_along(Stretch stretch, double flux) {
+/// uniform in each cell. `before` and `after` are the heights beyond its ends. Returns the flux that leaves.
+ImpactSweep::Flux ImpactSweep::hop_along(Stretch stretch, Flux flux, double before, double after) {
+  double height = line_height_[stretch.begin];
+  double shifted = shift(flux, 0.5 * (before + height));
   for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
-    const double next = carried_ * flux + launched_ * line_erosion_[i];
-    line_deposition_[i] = line_erosion_[i] + flux - next;
+    const double launched = launched_ * line_erosion_[i];
+    const Flux next{carried_ * flux.grains + launched, carried_ * flux.heights + launched * height};
+    const double ahead = i + 1 < stretch.end ? line_height_[i + 1] : after;
+    const double next_shifted = shift(next, 0.5 * (height + ahead));
+    line_deposition_[i] = line_erosion_[i] + flux.grains + shifted - next.grains - next_shifted;
     flux = next;
+    shifted = next_shifted;
+    height = ahead;
   }
   return flux;
 }
@@ -125,9 +139,12 @@ void ImpactSweep::run_open(const std::vector<double>& height) {
     const Stretch stretch = stretch_of(line);
     if (stretch.begin == stretch.end) continue;
     gather(height, line, stretch);
-    erode(stretch, line_height_[stretch.begin] - drop_);
+    const double first = line_height_[stretch.begin];
+    const double last = line_height_[stretch.end - 1];
+    erode(stretch, first - drop_);
+    const Flux leaving = hop_along(stretch, {flat_flux, flat_flux * first}, first, last);
     inflow_ += flat_flux;
-    outflow_ += hop_along(stretch, flat_flux);
+    outflow_ += leaving.grains + shift(leaving, last);
     scatter(line, stretch);
   }
 }
@@ -140,34 +157,36 @@ void ImpactSweep::run_periodic(const std::vector<double>& height) {
 
   // First round: what each line hands to the one that follows.
   for (int line = 0; line < lines; ++line) {
+    const auto at = static_cast<std::size_t>(line);
     gather(height, line, all);
-    envelope_[static_cast<std::size_t>(line)] = envelope_after(line_height_.data(), all.end, drop_);
-    first_height_[static_cast<std::size_t>(line)] = line_height_[0];
+    envelope_[at] = envelope_after(line_height_.data(), all.end, drop_);
+    first_height_[at] = line_height_.front();
+    last_height_[at] = line_height_.back();
   }
-  const auto exposed = [&](int line) {
+  const auto carry = [&](int line, Flux flux) {
     gather(height, line, all);
-    const std::size_t next = line_after(line);
-    const double after = envelope_[static_cast<std::size_t>(line)];
-    line_exposure_[all.end] = std::max(0.0, first_height_[next] - after) / drop_;
+    const double before = last_height_[line_before(line)];
+    const double after = first_height_[line_after(line)];
+    const double envelope = envelope_[static_cast<std::size_t>(line)];
+    line_exposure_[all.end] = std::max(0.0, after - envelope) / drop_;
     erode(all, envelope_[line_before(line)]);
+    return hop_along(all, flux, before, after);
   };
-  for (int line = 0; line < lines; ++line) {
-    exposed(line);
-    sent_[static_cast<std::size_t>(line)] = hop_along(all, 0);
-  }
+  for (int line = 0; line < lines; ++line) sent_[static_cast<std::size_t>(line)] = carry(line, {0, 0});
   // A line receives what the one before sent, and of what that one received as much as is carried over its
   // length.
   const double over_period = std::pow(carried_, static_cast<double>(all.end));
-  std::fill(received_.begin(), received_.end(), 0.0);
+  std::fill(received_.begin(), received_.end(), Flux{0, 0});
   double share = 1;
   for (int back = 1; share > 1e-18; ++back, share *= over_period)
-    for (int line = 0; line < lines; ++line)
-      received_[static_cast<std::size_t>(line)] +=
-          share * sent_[static_cast<std::size_t>(wrapped(line - back % lines * frame_.turn()))];
+    for (int line = 0; line < lines; ++line) {
+      const Flux& sent = sent_[static_cast<std::size_t>(wrapped(line - back % lines * frame_.turn()))];
+      received_[static_cast<std::size_t>(line)].grains += share * sent.grains;
+      received_[static_cast<std::size_t>(line)].heights += share * sent.heights;
+    }
 
   for (int line = 0; line < lines; ++line) {
-    exposed(line);
-    hop_along(all, received_[static_cast<std::size_t>(line)]);
+    carry(line, received_[static_cast<std::size_t>(line)]);
     scatter(line, all);
   }
 }

@@ -74,6 +74,8 @@ void store(const std::vector<double>& height, HeightMap::Layer& layer) {
 RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(parameters) {
   require(parameters.slope_effect >= 0 && std::isfinite(parameters.slope_effect), "slope_effect",
           parameters.slope_effect, "zero or more and finite");
+  require(parameters.hop_shortening >= 0 && std::isfinite(parameters.hop_shortening), "hop_shortening",
+          parameters.hop_shortening, "zero or more and finite");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
   require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
@@ -112,7 +114,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double spread = parameters_.lateral_spread * hop / cell;
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
-  ImpactSweep impacts(frame, tan_impact, hop);
+  ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
 
   const std::vector<double> start = height;
   std::vector<double> dune, bed, above(height.size()), deposition, scratch;
@@ -138,6 +140,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     volume.moved += eroded * depth * area;
     volume.inflow += impacts.inflow() * depth * area;
     volume.outflow += impacts.outflow() * depth * area;
+    for (double& d : deposition) d = std::max(d, 0.0);  // rolls only where grains come down
     apply_slope_flux(frame, cell, slope_scale, deposition, dt, bed, scratch);
 
     frame.leave(bed, height);

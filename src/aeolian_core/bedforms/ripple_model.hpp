@@ -13,9 +13,14 @@ enum class Border {
 
 struct RippleParameters {
   Border border = Border::open;
-  /// mu, the downslope bias of reptation (specification sec. 5.4), below cot(impact angle). Of 0.5 to 3, 1 forecasts the
-  /// lattice bed best five minutes ahead.
-  double slope_effect = 1.0;
+  /// nu: hops end early by this share of the rise of the bed over the hop, late by that of its fall.
+  /// Reptating grains come down at about 37 degrees (ejecta rise at 0.5 m/s and land at 0.45 down, 0.6
+  /// along): 1.33; less 0.3, because a struck slope lets go of its topmost grain, as measured on the lattice
+  /// bed.
+  double hop_shortening = 1.0;
+  /// mu, the downslope bias of grains that have come down (specification sec. 5.4). Ripples grow only while
+  /// hop_shortening + slope_effect < cot(impact angle). 0.25 to 0.5 forecast the lattice bed best.
+  double slope_effect = 0.4;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
   double relief_scale = 0.5;     ///< heights are taken above the surface smoothed over this length [m]
 };
@@ -25,8 +30,9 @@ struct RippleParameters {
 /// than repose avalanches. dh/dt = deposition - erosion - div q (specification sec. 5.4, after Werner 1987,
 /// eqs. 5.3-5.6).
 ///
-/// Linear theory on a flat bed: wavelength 2 pi a / sqrt(sqrt(cot alpha / mu) - 1), growth rate
-/// (K0 / a) (sqrt(cot alpha) - sqrt(mu))^2. The model picks its own time steps.
+/// Linear theory on a flat bed, with C = cot(alpha) - nu: growth rate K0 (C k^2 a / (1 + k^2 a^2) - mu a
+/// k^2), phase speed K0 C k^2 a^2 / (1 + k^2 a^2); fastest growth (K0 / a) (sqrt(C) - sqrt(mu))^2 at a
+/// wavelength of 2 pi a / sqrt(sqrt(C / mu) - 1). The model picks its own time steps.
 class RippleModel : public BedModel {
  public:
   /// Throws Error naming a parameter outside its range.

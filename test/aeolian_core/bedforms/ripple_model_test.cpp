@@ -32,10 +32,11 @@ Forcing wind(double direction = 0) {
 const double cot_alpha = 1 / std::tan(10 * degree);
 constexpr double unit_time = hop / erosion_rate;  ///< [s] in which a reptation length of depth is set moving
 
-RippleParameters parameters(Border border, double slope_effect) {
+RippleParameters parameters(Border border, double slope_effect, double hop_shortening = 0) {
   RippleParameters result;
   result.border = border;
   result.slope_effect = slope_effect;
+  result.hop_shortening = hop_shortening;
   result.relief_scale = 100;
   return result;
 }
@@ -84,8 +85,11 @@ double wavelength(const GridGeometry& g, const std::vector<double>& h) {
 }
 
 TEST(RippleModelTest, single_modes_grow_and_move_as_linear_theory_says) {
+  struct Case {
+    double nu, mu;
+  };
   for (const double waves_in_hop : {0.5, 0.83, 1.2})
-    for (const double mu : {0.5, 1.0, 2.0}) {
+    for (const Case c : {Case{0, 0.5}, Case{0, 1}, Case{0, 2}, Case{1, 0.4}, Case{2, 0}}) {
       const double cell = hop / 20;
       const int cells = static_cast<int>(std::lround(2 * M_PI / waves_in_hop * 20)) * 2;
       const double k = 4 * M_PI / (cells * cell);
@@ -95,13 +99,14 @@ TEST(RippleModelTest, single_modes_grow_and_move_as_linear_theory_says) {
       for (int x = 0; x < cells; ++x) h[g.index(x, 0)] = 1e-7 * std::cos(k * g.x(x));
       const double duration = 0.3 * unit_time;
       const std::complex<double> before = amplitude(g, h, k, 0);
-      RippleModel(parameters(Border::periodic, mu)).advance(g, h, wind(), duration);
+      RippleModel(parameters(Border::periodic, c.mu, c.nu)).advance(g, h, wind(), duration);
       const std::complex<double> rate = std::log(amplitude(g, h, k, 0) / before) / duration;
 
-      const double growth = erosion_rate * (cot_alpha * k * ka / (1 + ka * ka) - mu * hop * k * k);
-      const double speed = erosion_rate * cot_alpha * (1 - 1 / (1 + ka * ka));
-      EXPECT_NEAR(rate.real() / growth, 1, 0.03) << "ka " << ka << " mu " << mu;
-      EXPECT_NEAR(-rate.imag() / k / speed, 1, 0.03) << "ka " << ka << " mu " << mu;
+      const double contrast = cot_alpha - c.nu;
+      const double growth = erosion_rate * (contrast * k * ka / (1 + ka * ka) - c.mu * hop * k * k);
+      const double speed = erosion_rate * contrast * (1 - 1 / (1 + ka * ka));
+      EXPECT_NEAR(rate.real() / growth, 1, 0.03) << "ka " << ka << " nu " << c.nu << " mu " << c.mu;
+      EXPECT_NEAR(-rate.imag() / k / speed, 1, 0.03) << "ka " << ka << " nu " << c.nu << " mu " << c.mu;
     }
 }
 
@@ -196,7 +201,7 @@ TEST(RippleModelTest, volume_is_conserved_to_rounding) {
       std::vector<double> h = noise(g, 1e-3);
       const double before = sum(h);
       const BedChange change =
-          RippleModel(parameters(border, 1)).advance(g, h, wind(direction), 2 * unit_time);
+          RippleModel(parameters(border, 0.4, 1)).advance(g, h, wind(direction), 2 * unit_time);
       const double area = g.cell() * g.cell();
       EXPECT_GT(change.volume.moved, 0);
       EXPECT_NEAR(change.volume.change, (sum(h) - before) * area, 1e-12 * change.volume.moved);
@@ -211,7 +216,7 @@ TEST(RippleModelTest, a_flat_bed_stays_flat_under_an_open_border) {
   for (const double direction : {0.0, 0.4, 2.5}) {
     const GridGeometry g(0, 0, hop / 5, 80, 50);
     std::vector<double> h(g.size(), 0.25);
-    RippleModel(parameters(Border::open, 1)).advance(g, h, wind(direction), unit_time);
+    RippleModel(parameters(Border::open, 0.4, 1)).advance(g, h, wind(direction), unit_time);
     for (const double v : h) ASSERT_NEAR(v, 0.25, 1e-12);
   }
 }
@@ -290,7 +295,7 @@ TEST(RippleModelTest, every_map_and_every_time_step_gives_finite_heights) {
           for (std::size_t i = h.size() - h.size() / 4; i < h.size(); ++i) h[i] += 0.05;  // a cliff
           Forcing forcing = wind(direction);
           forcing.reptation_length = 0.004;
-          const BedChange change = RippleModel(parameters(border, 1)).advance(g, h, forcing, duration);
+          const BedChange change = RippleModel(parameters(border, 0.4, 1)).advance(g, h, forcing, duration);
           for (const double v : h)
             ASSERT_TRUE(std::isfinite(v)) << duration << ' ' << size.x << 'x' << size.y;
           EXPECT_NEAR(change.volume.error(), 0, 1e-9) << duration << ' ' << size.x << 'x' << size.y;
@@ -313,6 +318,9 @@ TEST(RippleModelTest, refuses_parameters_and_maps_that_it_cannot_use) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   RippleParameters p;
   p.slope_effect = -1;
+  EXPECT_THROW(RippleModel{p}, Error);
+  p = RippleParameters{};
+  p.hop_shortening = nan;
   EXPECT_THROW(RippleModel{p}, Error);
   p = RippleParameters{};
   p.lateral_spread = nan;
