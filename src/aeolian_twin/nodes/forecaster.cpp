@@ -49,6 +49,7 @@ class Forecaster : public Node {
     check(grain_);
     splash_.reptation_diameters = parameters().number("reptation_diameters");
     RippleParameters ripple;
+    ripple.hop_shortening = parameters().number("hop_shortening");
     ripple.slope_effect = parameters().number("slope_effect");
     ripple.lateral_spread = parameters().number("lateral_spread");
     ripple.relief_scale = parameters().number("relief_scale");
@@ -236,6 +237,8 @@ NodeDescription describe_forecaster() {
           {"angle_of_repose_deg", 33.0, "degrees", "of the bed", Limits::between(1, 60)},
           {"reptation_diameters", Splash{}.reptation_diameters, "grain diameters",
            "mean length of a reptation hop", Limits::positive()},
+          {"hop_shortening", ripple.hop_shortening, "", "hops end early by this share of the bed's rise",
+           Limits::not_negative()},
           {"slope_effect", ripple.slope_effect, "", "downslope bias of reptation", Limits::not_negative()},
           {"lateral_spread", ripple.lateral_spread, "", "spread of a hop across the wind / mean length",
            Limits::not_negative()},
