@@ -1,14 +1,13 @@
 #include "aeolian_rviz/height_map_display.hpp"
 
 #include <OgreSceneNode.h>
+#include <pluginlib/class_list_macros.hpp>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
-
-#include <pluginlib/class_list_macros.hpp>
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
@@ -23,12 +22,12 @@ HeightMapDisplay::HeightMapDisplay() {
                                            SLOT(redraw()));
   colour_layer_ = new rviz::StringProperty("Colour Layer", "elevation", "Layer that gives the colours.", this,
                                            SLOT(redraw()));
-  palette_ = new rviz::EnumProperty("Palette", "Sand", "Colours: sand for heights, diverging for differences.", this,
-                                    SLOT(redraw()));
+  palette_ = new rviz::EnumProperty(
+      "Palette", "Sand", "Colours: sand for heights, diverging for differences.", this, SLOT(redraw()));
   palette_->addOption("Sand", static_cast<int>(Palette::sand));
   palette_->addOption("Diverging", static_cast<int>(Palette::diverging));
-  exaggeration_ = new rviz::FloatProperty("Exaggeration", 1, "Heights are drawn this many times too high.", this,
-                                          SLOT(redraw()));
+  exaggeration_ = new rviz::FloatProperty("Exaggeration", 1, "Heights are drawn this many times too high.",
+                                          this, SLOT(redraw()));
   exaggeration_->setMin(0.01F);
 }
 
@@ -47,7 +46,9 @@ void HeightMapDisplay::onDisable() {
 
 void HeightMapDisplay::fixedFrameChanged() { redraw(); }
 
-void HeightMapDisplay::setTopic(const QString& topic, const QString& /*datatype*/) { topic_->setString(topic); }
+void HeightMapDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
+  topic_->setString(topic);
+}
 
 void HeightMapDisplay::reset() {
   Display::reset();
@@ -89,10 +90,12 @@ void HeightMapDisplay::redraw() {
     const HeightMap::Layer& values = map.layer(colour_layer_->getStdString());
     const auto palette = static_cast<Palette>(palette_->getOptionInt());
     const double exaggeration = static_cast<double>(exaggeration_->getFloat());
-    mesh_->update(geometry, heights,
-                  shaded_colours(geometry, values, palette, display_range(values, palette), &heights, exaggeration),
-                  exaggeration);
-    const Ogre::Vector3 corner(static_cast<float>(geometry.origin_x()), static_cast<float>(geometry.origin_y()), 0);
+    mesh_->update(
+        geometry, heights,
+        shaded_colours(geometry, values, palette, display_range(values, palette), &heights, exaggeration),
+        exaggeration);
+    const Ogre::Vector3 corner(static_cast<float>(geometry.origin_x()),
+                               static_cast<float>(geometry.origin_y()), 0);
     scene_node_->setPosition(position + orientation * corner);
     scene_node_->setOrientation(orientation);
     setStatus(rviz::StatusProperty::Ok, "Map", "drawn");

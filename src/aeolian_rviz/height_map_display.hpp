@@ -1,12 +1,11 @@
 #pragma once
 
-#include <grid_map_msgs/GridMap.h>
-#include <ros/subscriber.h>
-#include <rviz/display.h>
-
 #include <memory>
 
 #include "aeolian_rviz/surface_mesh.hpp"
+#include <grid_map_msgs/GridMap.h>
+#include <ros/subscriber.h>
+#include <rviz/display.h>
 
 namespace rviz {
 class EnumProperty;
@@ -18,7 +17,8 @@ class StringProperty;
 namespace aeolian {
 
 /// rviz display of a grid map: a shaded surface of one layer, coloured by the same or another.
-/// (Not a MessageFilterDisplay: that asks for a header at the top of the message, and a grid map's is inside `info`.)
+/// (Not a MessageFilterDisplay: that asks for a header at the top of the message, and a grid map's is inside
+/// `info`.)
 class HeightMapDisplay : public rviz::Display {
   Q_OBJECT
 

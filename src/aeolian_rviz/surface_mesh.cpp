@@ -1,12 +1,12 @@
 #include "aeolian_rviz/surface_mesh.hpp"
 
+#include <cmath>
+
 #include <OgreManualObject.h>
 #include <OgreMaterialManager.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <OgreTechnique.h>
-
-#include <cmath>
 
 namespace aeolian {
 namespace {
@@ -20,8 +20,8 @@ std::string unique_name() {
 
 SurfaceMesh::SurfaceMesh(Ogre::SceneManager* scene, Ogre::SceneNode* node)
     : scene_(scene), node_(node), object_(nullptr), material_(unique_name()) {
-  // The shading is in the colours, so that the picture does not depend on rviz' lamp; rviz has no group for materials
-  // of others but Ogre's default.
+  // The shading is in the colours, so that the picture does not depend on rviz' lamp; rviz has no group for
+  // materials of others but Ogre's default.
   const auto material = Ogre::MaterialManager::getSingleton().create(
       material_, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
   material->getTechnique(0)->setLightingEnabled(false);
@@ -34,7 +34,8 @@ SurfaceMesh::SurfaceMesh(Ogre::SceneManager* scene, Ogre::SceneNode* node)
 SurfaceMesh::~SurfaceMesh() {
   node_->detachObject(object_);
   scene_->destroyManualObject(object_);
-  Ogre::MaterialManager::getSingleton().remove(material_, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  Ogre::MaterialManager::getSingleton().remove(material_,
+                                               Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
 }
 
 void SurfaceMesh::clear() {

@@ -14,7 +14,8 @@ class SceneNode;
 
 namespace aeolian {
 
-/// A height map as one indexed triangle mesh in rviz' scene. The buffers are kept while the map keeps its size.
+/// A height map as one indexed triangle mesh in rviz' scene. The buffers are kept while the map keeps its
+/// size.
 class SurfaceMesh {
  public:
   SurfaceMesh(Ogre::SceneManager* scene, Ogre::SceneNode* node);
@@ -22,8 +23,8 @@ class SurfaceMesh {
   SurfaceMesh(const SurfaceMesh&) = delete;
   SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
-  /// Draws `heights` [m], times `exaggeration`, in the given colours, one for each cell. Triangles that touch an unknown
-  /// cell are left out.
+  /// Draws `heights` [m], times `exaggeration`, in the given colours, one for each cell. Triangles that touch
+  /// an unknown cell are left out.
   void update(const GridGeometry& geometry, const HeightMap::Layer& heights, const std::vector<Rgb>& colours,
               double exaggeration);
   void clear();

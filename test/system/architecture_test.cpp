@@ -1,6 +1,4 @@
 // The design as a test: no ROS in the core, includes go up the list of rooms only.
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -8,6 +6,8 @@
 #include <set>
 #include <sstream>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace fs = std::filesystem;
 
@@ -62,8 +62,10 @@ TEST(Architecture, IncludesGoUpTheListOfRooms) {
     const std::string prefix = "aeolian_core/";
     if (include.compare(0, prefix.size(), prefix) != 0) return;
     ++seen;
-    const std::string target = include.substr(prefix.size(), include.find('/', prefix.size()) - prefix.size());
-    EXPECT_TRUE(target == room || allowed.at(room).count(target)) << room << "/" << file << " includes " << include;
+    const std::string target =
+        include.substr(prefix.size(), include.find('/', prefix.size()) - prefix.size());
+    EXPECT_TRUE(target == room || allowed.at(room).count(target))
+        << room << "/" << file << " includes " << include;
   });
   EXPECT_GT(seen, 50U);
 }

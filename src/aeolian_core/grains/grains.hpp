@@ -2,8 +2,8 @@
 
 /// The room `grains`: what one grain is and what one impact does.
 ///
-/// Grain properties, and the mean effect of an impact on the bed (ejecta, reptation) after Werner (1987), ch. II-III and
-/// Kok & Renno (2009), as collected in the splash specification.
+/// Grain properties, and the mean effect of an impact on the bed (ejecta, reptation) after Werner (1987), ch.
+/// II-III and Kok & Renno (2009), as collected in the splash specification.
 
 #include "aeolian_core/grains/grain.hpp"
 #include "aeolian_core/grains/splash.hpp"

@@ -6,8 +6,8 @@ namespace aeolian {
 
 /// The mean effect of saltating grains on the bed that they hit.
 struct Splash {
-  double ejecta_coefficient = 0.02;        ///< N_e = coefficient v / sqrt(g d) (Kok & Renno 2009, eq. 12)
-  double reptation_diameters = 25;         ///< mean reptation length in grain diameters
+  double ejecta_coefficient = 0.02;  ///< N_e = coefficient v / sqrt(g d) (Kok & Renno 2009, eq. 12)
+  double reptation_diameters = 25;   ///< mean reptation length in grain diameters
 
   /// Mean number of grains that an impact at `speed` [m/s] ejects.
   double ejecta_per_impact(const Grain& grain, double speed) const;

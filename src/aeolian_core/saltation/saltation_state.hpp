@@ -18,12 +18,13 @@ struct SaltationState {
 /// The steady state for quartz sand in air at sea level by the three-number law
 /// Q = A (u*^2 - u*_it^2) [1 + B (u*/u*_it - 1)], zero below u*_it; impact rate Q / (m L).
 ///
-/// A, B, u*_it, impact speed and angle and hop length are interpolated linearly in diameter between solved states at
-/// 0.25 and 0.40 mm (saltation specification sec. 7). Outside, thresholds, speeds and A (which is proportional to u*_it)
-/// scale with sqrt(d), hop length with d; B and the angle are held. For other densities u*_it scales with
-/// sqrt(grain density / air density), Q with air density and u*_it. Speed, angle and hop length rise slowly and linearly
-/// with u*. Good to 2 % at the solved diameters for u*/u*_it from 1.1 to 3.5, unchecked outside 0.2 to 0.6 mm.
-/// Throws Error for a friction velocity that is negative or not finite, an impossible grain or air density.
+/// A, B, u*_it, impact speed and angle and hop length are interpolated linearly in diameter between solved
+/// states at 0.25 and 0.40 mm (saltation specification sec. 7). Outside, thresholds, speeds and A (which is
+/// proportional to u*_it) scale with sqrt(d), hop length with d; B and the angle are held. For other
+/// densities u*_it scales with sqrt(grain density / air density), Q with air density and u*_it. Speed, angle
+/// and hop length rise slowly and linearly with u*. Good to 2 % at the solved diameters for u*/u*_it from 1.1
+/// to 3.5, unchecked outside 0.2 to 0.6 mm. Throws Error for a friction velocity that is negative or not
+/// finite, an impossible grain or air density.
 SaltationState steady_saltation(double friction_velocity, const Grain& grain, double air_density = 1.225);
 
 }  // namespace aeolian

@@ -19,7 +19,8 @@ struct Table {
 };
 
 /// Reads a table whose first line names the columns; "#" starts a comment, empty fields and "nan" are NaN.
-/// Throws Error naming file, line and field for anything that is not a number, and for rows of another length.
+/// Throws Error naming file, line and field for anything that is not a number, and for rows of another
+/// length.
 Table read_csv(const std::string& path);
 /// Writes a table, atomically, with the digits that read back to the same double.
 void write_csv(const Table& table, const std::string& path);

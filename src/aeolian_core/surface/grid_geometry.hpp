@@ -15,12 +15,13 @@ struct CellIndex {
 
 /// Where a grid of square cells lies in the map frame.
 ///
-/// The origin is the outer corner of cell (0, 0), the one of smallest x and y [m]. It is a double, so that UTM
-/// coordinates lose nothing. Cells are stored row by row, x fastest: index = y * nx + x.
+/// The origin is the outer corner of cell (0, 0), the one of smallest x and y [m]. It is a double, so that
+/// UTM coordinates lose nothing. Cells are stored row by row, x fastest: index = y * nx + x.
 class GridGeometry {
  public:
   GridGeometry() = default;
-  /// Throws Error unless cell > 0, counts >= 1, all numbers are finite and the cells can be counted in an int.
+  /// Throws Error unless cell > 0, counts >= 1, all numbers are finite and the cells can be counted in an
+  /// int.
   GridGeometry(double origin_x, double origin_y, double cell, int nx, int ny);
   /// The smallest grid of cells whose edges are multiples of `cell` that covers the given bounds [m].
   static GridGeometry covering(double min_x, double min_y, double max_x, double max_y, double cell);

@@ -13,7 +13,8 @@ auto find_layer(Layers& layers, const std::string& name) {
   return std::find_if(layers.begin(), layers.end(), [&](const auto& entry) { return entry.first == name; });
 }
 
-/// Adds to each unknown cell of one row or column the weighted value of the nearest known cell on either side.
+/// Adds to each unknown cell of one row or column the weighted value of the nearest known cell on either
+/// side.
 void gather_along(const HeightMap::Layer& values, std::size_t start, std::size_t stride, int count,
                   std::vector<double>& sum, std::vector<double>& weight) {
   const auto sweep = [&](int from, int to, int step) {
@@ -83,8 +84,10 @@ HeightMap::Layer filled(const GridGeometry& geometry, const HeightMap::Layer& va
   std::vector<double> sum(values.size(), 0);
   std::vector<double> weight(values.size(), 0);
   const auto nx = static_cast<std::size_t>(geometry.nx());
-  for (int y = 0; y < geometry.ny(); ++y) gather_along(values, geometry.index(0, y), 1, geometry.nx(), sum, weight);
-  for (int x = 0; x < geometry.nx(); ++x) gather_along(values, geometry.index(x, 0), nx, geometry.ny(), sum, weight);
+  for (int y = 0; y < geometry.ny(); ++y)
+    gather_along(values, geometry.index(0, y), 1, geometry.nx(), sum, weight);
+  for (int x = 0; x < geometry.nx(); ++x)
+    gather_along(values, geometry.index(x, 0), nx, geometry.ny(), sum, weight);
   double mean = 0;
   for (const float v : values)
     if (std::isfinite(v)) mean += static_cast<double>(v) / static_cast<double>(known);

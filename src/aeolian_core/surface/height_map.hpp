@@ -52,8 +52,8 @@ class HeightMap {
 /// The number of finite cells of a layer.
 std::size_t count_known(const HeightMap::Layer& values);
 
-/// A copy of a layer in which every unknown cell has the distance-weighted mean of the nearest known cells along its
-/// row and column; a layer without any known cell becomes zero. Known cells are unchanged.
+/// A copy of a layer in which every unknown cell has the distance-weighted mean of the nearest known cells
+/// along its row and column; a layer without any known cell becomes zero. Known cells are unchanged.
 HeightMap::Layer filled(const GridGeometry& geometry, const HeightMap::Layer& values);
 
 }  // namespace aeolian

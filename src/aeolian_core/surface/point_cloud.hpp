@@ -5,8 +5,8 @@
 
 namespace aeolian {
 
-/// Points as floats about a double origin: the true coordinate is origin + (x, y, z) [m]. Large coordinates (UTM) never
-/// meet a float. Points that are not finite are allowed and mean "nothing seen".
+/// Points as floats about a double origin: the true coordinate is origin + (x, y, z) [m]. Large coordinates
+/// (UTM) never meet a float. Points that are not finite are allowed and mean "nothing seen".
 struct PointCloud {
   double origin_x = 0;
   double origin_y = 0;

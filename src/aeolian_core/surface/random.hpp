@@ -5,10 +5,11 @@
 
 namespace aeolian {
 
-/// Counter-based random numbers: Philox4x32-10 of Salmon et al. (2011), "Parallel random numbers: as easy as 1, 2, 3".
+/// Counter-based random numbers: Philox4x32-10 of Salmon et al. (2011), "Parallel random numbers: as easy as
+/// 1, 2, 3".
 ///
-/// A number is a pure function of (seed, stream, counter), so a result does not depend on the order in which, or the
-/// number of threads by which, the numbers are drawn.
+/// A number is a pure function of (seed, stream, counter), so a result does not depend on the order in which,
+/// or the number of threads by which, the numbers are drawn.
 ///
 ///     Philox random(seed);
 ///     auto bits = random(counter, stream);          // four independent 32-bit words

@@ -19,21 +19,22 @@ enum class Palette {
 /// The colour of a value in [0, 1]; values outside are clamped, NaN gives neutral grey.
 Rgb colour(Palette palette, double value);
 
-/// The range that a picture of a layer should show: the 2nd to 98th percentile of the known cells; for the diverging
-/// palette symmetric about zero. (0, 0) when nothing is known.
+/// The range that a picture of a layer should show: the 2nd to 98th percentile of the known cells; for the
+/// diverging palette symmetric about zero. (0, 0) when nothing is known.
 struct ValueRange {
   double low = 0;
   double high = 0;
 };
 ValueRange display_range(const HeightMap::Layer& values, Palette palette);
 
-/// Light reflected by each cell in [0, 1] under a lamp in the north-west, 45 degrees high; heights are exaggerated first.
-/// Unknown cells and those beside them count as flat.
+/// Light reflected by each cell in [0, 1] under a lamp in the north-west, 45 degrees high; heights are
+/// exaggerated first. Unknown cells and those beside them count as flat.
 std::vector<float> hill_shade(const GridGeometry& geometry, const HeightMap::Layer& elevation,
                               double exaggeration = 1);
 
 /// The colour of each cell: the palette's, darkened by hill shading of `relief` (the layer itself when null).
 std::vector<Rgb> shaded_colours(const GridGeometry& geometry, const HeightMap::Layer& values, Palette palette,
-                                ValueRange range, const HeightMap::Layer* relief = nullptr, double exaggeration = 1);
+                                ValueRange range, const HeightMap::Layer* relief = nullptr,
+                                double exaggeration = 1);
 
 }  // namespace aeolian

@@ -2,9 +2,9 @@
 
 /// The room `surface`: what a surface is in this program.
 ///
-/// Height maps on a regular grid, the tiles of them that are active, point clouds, and the files that hold either.
-/// It is the lowest room: it knows neither physics nor sensors. It also keeps the few things that every room needs:
-/// the error type, counter-based random numbers and files that appear whole or not at all.
+/// Height maps on a regular grid, the tiles of them that are active, point clouds, and the files that hold
+/// either. It is the lowest room: it knows neither physics nor sensors. It also keeps the few things that
+/// every room needs: the error type, counter-based random numbers and files that appear whole or not at all.
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"

@@ -15,8 +15,8 @@ struct CellRange {
 
 /// Which tiles of 32 x 32 cells of a grid are active. Tiles at the far edges may be smaller.
 ///
-/// Every algorithm that walks a map takes one and every producer of change returns one: the quiet parts of a scene cost
-/// nothing.
+/// Every algorithm that walks a map takes one and every producer of change returns one: the quiet parts of a
+/// scene cost nothing.
 class TileMask {
  public:
   static constexpr int tile_cells = 32;

@@ -21,8 +21,9 @@ struct Forecast {
   VolumeBalance volume;  ///< since the start
 };
 
-/// Runs a bed model from a measured map to each horizon [s, positive, increasing] under one forcing. The run goes on from
-/// one horizon to the next. Throws Error naming a bad horizon or a map without elevation or any known cell.
+/// Runs a bed model from a measured map to each horizon [s, positive, increasing] under one forcing. The run
+/// goes on from one horizon to the next. Throws Error naming a bad horizon or a map without elevation or any
+/// known cell.
 std::vector<Forecast> make_forecasts(const HeightMap& start, const Forcing& forcing,
                                      const std::vector<double>& horizons, BedModel& model);
 

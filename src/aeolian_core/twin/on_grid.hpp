@@ -4,8 +4,8 @@
 
 namespace aeolian {
 
-/// A map on a grid that it should share: as it is when the two agree to a millionth of a cell (messages hold centres of
-/// maps, which round), resampled otherwise.
+/// A map on a grid that it should share: as it is when the two agree to a millionth of a cell (messages hold
+/// centres of maps, which round), resampled otherwise.
 HeightMap on_grid(const HeightMap& map, const GridGeometry& target);
 
 }  // namespace aeolian

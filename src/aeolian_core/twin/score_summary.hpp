@@ -22,11 +22,11 @@ struct LeadSummary {
   std::vector<Run::Score> scores;
 
   /// The spread of one number of the comparisons.
-  Spread spread(double Comparison::* number) const;
+  Spread spread(double Comparison::*number) const;
 };
 
-/// Scores by lead time, shortest first. Lead times within 2 % of one another (or half a second) are one: time stamps of
-/// maps and forecasts need not agree to the last digit.
+/// Scores by lead time, shortest first. Lead times within 2 % of one another (or half a second) are one: time
+/// stamps of maps and forecasts need not agree to the last digit.
 std::vector<LeadSummary> summarise_by_lead(const std::vector<Run::Score>& scores);
 
 }  // namespace aeolian

@@ -8,15 +8,15 @@ namespace aeolian {
 
 /// What an anemometer says.
 struct WindInput {
-  double speed = 0;          ///< [m/s]
-  double direction = 0;      ///< where it blows to, counter-clockwise from east [rad]
-  double height = 1;         ///< of the anemometer over the ground [m]
+  double speed = 0;            ///< [m/s]
+  double direction = 0;        ///< where it blows to, counter-clockwise from east [rad]
+  double height = 1;           ///< of the anemometer over the ground [m]
   double air_density = 1.225;  ///< [kg/m^3]
-  double time = 0;           ///< [s]
+  double time = 0;             ///< [s]
 };
 
-/// The wind at the surface. A wind that is the same everywhere is two numbers; one that is not adds the layers
-/// `friction_velocity` [m/s] and `direction` [rad] of a map.
+/// The wind at the surface. A wind that is the same everywhere is two numbers; one that is not adds the
+/// layers `friction_velocity` [m/s] and `direction` [rad] of a map.
 struct WindField {
   double friction_velocity = 0;  ///< of the flat surroundings [m/s]
   double direction = 0;          ///< where it blows to, counter-clockwise from east [rad]

@@ -19,9 +19,10 @@ struct WindRecord {
   std::vector<Gap> gaps(double longest) const;
 };
 
-/// Reads columns t_s, speed_m_s and direction_deg (where it blows to, counter-clockwise from east) or from_deg
-/// (meteorological) from a CSV file. Rows whose speed or direction is NaN are gaps and left out. Throws Error naming
-/// file, row and value for missing columns, negative speeds and times that do not increase.
+/// Reads columns t_s, speed_m_s and direction_deg (where it blows to, counter-clockwise from east) or
+/// from_deg (meteorological) from a CSV file. Rows whose speed or direction is NaN are gaps and left out.
+/// Throws Error naming file, row and value for missing columns, negative speeds and times that do not
+/// increase.
 WindRecord read_wind_record(const std::string& path);
 
 }  // namespace aeolian
