@@ -3,15 +3,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "ros_test.hpp"
 #include <geometry_msgs/TransformStamped.h>
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <unistd.h>
 
 #include "aeolian_core/surface/cloud_file.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
@@ -113,6 +118,36 @@ TEST_F(RealScans, AirborneLidarInUtmCoordinates) {
   EXPECT_EQ(agreement.known_cells, agreement.cells_with_points);
   EXPECT_GT(agreement.known_cells, 10000U);
   EXPECT_LT(agreement.median_of_differences, 0.02) << "the scanner is good to some centimetres";
+}
+
+/// What a user does with a file: make_bag, then the bag into the node.
+TEST_F(RealScans, AirborneLidarThroughMakeBag) {
+  if (!std::filesystem::exists(shared_data())) GTEST_SKIP() << "no " << shared_data();
+  const std::string file = std::filesystem::absolute(shared_data() / "lidar-terrain/samp53-utm.pcd").string();
+  const auto folder = std::filesystem::temp_directory_path() / ("real_scans_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "manifest.yaml") << "clouds: [{file: " << file << ", stamp: 1000.5}]\n";
+  const std::string bag_path = (folder / "scan.bag").string();
+  const std::string command =
+      AEOLIAN_BIN "/make_bag " + (folder / "manifest.yaml").string() + " " + bag_path + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+
+  tf2_ros::StaticTransformBroadcaster tf;
+  sensor_msgs::PointCloud2::ConstPtr scan;
+  rosbag::Bag bag(bag_path);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto frames = message.instantiate<tf2_msgs::TFMessage>()) tf.sendTransform(frames->transforms);
+    if (const auto points = message.instantiate<sensor_msgs::PointCloud2>()) scan = points;
+  }
+  bag.close();
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(scan);
+  const HeightMap map = map_of("bag", *scan);
+  const Agreement agreement = compare_with_points(map, read_cloud(file), 0, 1);
+  EXPECT_EQ(agreement.points_outside, 0U);
+  EXPECT_EQ(agreement.known_cells, agreement.cells_with_points);
+  EXPECT_GT(agreement.known_cells, 10000U);
+  EXPECT_LT(agreement.median_of_differences, 0.02);
 }
 
 TEST_F(RealScans, DepthCamera) {
