@@ -1,212 +1,287 @@
 #include "aeolian_core/measure/fusion.hpp"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "aeolian_core/measure/point_locator.hpp"
+#include "aeolian_core/measure/sample_buckets.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
 
-/// Rms slope of the bed along a ray; ripples of index 15 have about this.
-constexpr double bed_slope = 0.1;
+/// Half the height that a bed spans within a cell at the angle of repose, 35 degrees, in cells.
+constexpr double repose_relief = 0.35;
+/// A cloud may be so much older than the newest before the clock is taken to have jumped back [s].
+constexpr double greatest_delay = 10;
+/// Milliseconds that the cells can count, less a reserve.
+constexpr double longest_time = 4e9;
+constexpr std::size_t points_at_once = 16384;
 
 void require(bool allowed, const char* name, double value, const char* what) {
   if (!allowed)
     throw Error("fusion: " + std::string(name) + " is " + std::to_string(value) + ", must be " + what);
 }
 
-/// Takes points of a cloud to the map frame, relative to the grid's origin, and weighs them. Large
-/// coordinates cancel in double, here, before a point is looked at.
-class PointModel {
- public:
-  PointModel(const PointCloud& cloud, const Eigen::Isometry3d& pose, const GridGeometry& geometry,
-             const FusionParameters& parameters)
-      : origin_(cloud.origin_x, cloud.origin_y, cloud.origin_z),
-        rotation_(pose.linear()),
-        turned_origin_(rotation_ * origin_),
-        offset_(turned_origin_ + pose.translation() -
-                Eigen::Vector3d(geometry.origin_x(), geometry.origin_y(), 0)),
-        sigma_(parameters.sensor.range_sigma),
-        sigma_per_metre_(parameters.sensor.range_sigma_per_metre),
-        georeferenced_(origin_.norm() > parameters.max_range) {}
+void check(const FusionParameters& p) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  require(p.min_range >= 0 && finite(p.min_range), "min_range", p.min_range, "zero or positive");
+  require(p.max_range > p.min_range, "max_range", p.max_range, "greater than min_range");
+  p.sensor.require_valid(p.min_range, p.max_range);
+  require(p.change.rate_sigma >= 0 && finite(p.change.rate_sigma), "rate_sigma", p.change.rate_sigma,
+          "zero or positive");
+  require(p.change.rate_time > 0 && finite(p.change.rate_time), "rate_time", p.change.rate_time, "positive");
+  require(p.gate_sigma > 0 && finite(p.gate_sigma), "gate_sigma", p.gate_sigma, "positive");
+  require(p.gate_patience >= 0 && p.gate_patience < 255, "gate_patience", p.gate_patience, "from 0 to 254");
+}
 
-  bool georeferenced() const { return georeferenced_; }
-  double squared_range(const Eigen::Vector3d& point) const { return (origin_ + point).squaredNorm(); }
-  Eigen::Vector3d turned(const Eigen::Vector3d& point) const { return rotation_ * point; }
-  const Eigen::Vector3d& offset() const { return offset_; }
+/// What a reading at the least range says of a height, without the ray's slant [m^2].
+double reference_variance(const FusionParameters& p) {
+  const double sigma = p.sensor.along_ray(p.min_range, 1);
+  return sigma * sigma;
+}
 
-  /// Inverse variance of the height of a point [1/m^2]; `turned_z` of the turned point.
-  double weight(double turned_z, double squared_range) const {
-    if (georeferenced_) return 1 / (sigma_ * sigma_);
-    const double sigma = sigma_per_metre_ > 0 ? sigma_ + sigma_per_metre_ * std::sqrt(squared_range) : sigma_;
-    const double drop = turned_z + turned_origin_.z();
-    constexpr double m2 = bed_slope * bed_slope;
-    return squared_range / (sigma * sigma * ((1 - m2) * drop * drop + m2 * squared_range));
-  }
-
- private:
-  Eigen::Vector3d origin_;
-  Eigen::Matrix3d rotation_;
-  Eigen::Vector3d turned_origin_;
-  Eigen::Vector3d offset_;
-  double sigma_;
-  double sigma_per_metre_;
-  bool georeferenced_;
-};
+PointLocator locator(const PointCloud& cloud, const Eigen::Isometry3d& pose, const GridGeometry& g,
+                     const FusionParameters& p, const SensorNoise& sensor) {
+  PointLocator l;
+  const Eigen::Matrix3d rotation = pose.linear();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      l.rotation[static_cast<std::size_t>(3 * row + column)] = rotation(row, column);
+  l.offset = {pose.translation().x() - g.origin_x(), pose.translation().y() - g.origin_y(),
+              pose.translation().z()};
+  l.origin = {cloud.origin_x, cloud.origin_y, cloud.origin_z};
+  l.per_cell = 1 / g.cell();
+  l.nx = g.nx();
+  l.ny = g.ny();
+  l.tiles_x = (g.nx() + TileMask::tile_cells - 1) / TileMask::tile_cells;
+  l.nearest = p.min_range * p.min_range;
+  l.farthest = p.max_range * p.max_range;
+  l.noise = sensor;
+  l.reference_variance = reference_variance(p);
+  l.georeferenced =
+      Eigen::Vector3d(cloud.origin_x, cloud.origin_y, cloud.origin_z).norm() > p.max_range;
+  return l;
+}
 
 }  // namespace
 
+/// What each thread keeps for itself.
+struct HeightFusion::Workers {
+  struct Worker {
+    explicit Worker(const BedChange& change) : steps(change) {}
+    SampleBuckets buckets;
+    PointCounts counts;
+    BedSteps steps;
+    std::size_t outlier_cells = 0;
+  };
+
+  explicit Workers(const BedChange& change) : of_threads([change] { return Worker(change); }) {}
+  tbb::enumerable_thread_specific<Worker> of_threads;
+
+  void reset() {
+    for (Worker& worker : of_threads) {
+      worker.buckets.clear();
+      worker.counts = {};
+      worker.outlier_cells = 0;
+    }
+  }
+
+  void sort_into_tiles(const PointCloud& cloud, const PointLocator& locator, std::size_t tiles) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, cloud.size(), points_at_once),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          Worker& worker = of_threads.local();
+          worker.buckets.reserve(tiles);
+          std::int32_t tile[PointLocator::batch];
+          Sample sample[PointLocator::batch];
+          for (std::size_t i = range.begin(); i < range.end(); i += PointLocator::batch) {
+            const std::size_t count = std::min(PointLocator::batch, range.end() - i);
+            worker.counts.add(
+                locator.locate(&cloud.x[i], &cloud.y[i], &cloud.z[i], count, tile, sample));
+            worker.buckets.add(tile, sample, count);
+          }
+        },
+        tbb::simple_partitioner());
+  }
+};
+
 HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters& parameters)
-    : map_(geometry),
-      parameters_(parameters),
-      updated_(geometry.size()),
-      refusals_(geometry.size()),
-      sums_(geometry.size()) {
-  check_parameters();
-  map_.add(layer::elevation);
-  map_.add(layer::variance);
+    : map_(geometry), parameters_(parameters) {
+  check(parameters);
+  rules_.gate = {parameters.gate_sigma * parameters.gate_sigma, repose_relief * geometry.cell(),
+                 fixed::reference_weight * reference_variance(parameters)};
+  rules_.robust = parameters.robust;
+  rules_.patience = parameters.gate_patience;
+  rules_.first_rate_variance = parameters.change.rate_sigma * parameters.change.rate_sigma;
+  rules_.known_rate_variance = static_cast<float>(0.5 * rules_.first_rate_variance);
+  workers_ = std::make_unique<Workers>(parameters.change);
+  clear();
 }
 
 HeightFusion::HeightFusion(const HeightMap& map, const FusionParameters& parameters, double stamp)
     : HeightFusion(map.geometry(), parameters) {
   require(std::isfinite(stamp), "stamp", stamp, "finite");
-  map_.layer(layer::elevation) = map.layer(layer::elevation);
-  auto& elevation = map_.layer(layer::elevation);
-  auto& variance = map_.layer(layer::variance);
-  if (map.has(layer::variance)) variance = map.layer(layer::variance);
-  const double sigma = parameters.sensor.range_sigma;
+  const HeightMap::Layer none(map.geometry().size(), HeightMap::unknown);
+  const auto given = [&](const std::string& name) -> const HeightMap::Layer& {
+    return map.has(name) ? map.layer(name) : none;
+  };
+  const HeightMap::Layer& elevation = map.layer(layer::elevation);
+  const HeightMap::Layer& variance = given(layer::variance);
+  const HeightMap::Layer& rate = given(layer::rate);
+  const HeightMap::Layer& rate_variance = given(layer::rate_variance);
+  const auto or_else = [](float value, double fallback) {
+    return std::isfinite(value) ? static_cast<double>(value) : fallback;
+  };
+  const double point = reference_variance(parameters);
   for (std::size_t i = 0; i < elevation.size(); ++i) {
-    if (!std::isfinite(elevation[i]))
-      elevation[i] = variance[i] = HeightMap::unknown;
-    else if (!(variance[i] >= 0) || !std::isfinite(variance[i]))
-      variance[i] = static_cast<float>(sigma * sigma);
+    if (!std::isfinite(elevation[i])) continue;
+    const CellIndex at = map.geometry().cell_at(i);
+    const CellEstimate known{
+        static_cast<double>(elevation[i]), variance[i] >= 0 ? or_else(variance[i], point) : point,
+        or_else(rate[i], 0),
+        rate_variance[i] >= 0 ? or_else(rate_variance[i], rules_.first_rate_variance)
+                              : rules_.first_rate_variance};
+    constexpr int side = FusionTile::side;
+    const auto tiles_x = static_cast<std::size_t>((map.geometry().nx() + side - 1) / side);
+    auto& tile = tiles_[static_cast<std::size_t>(at.y / side) * tiles_x + static_cast<std::size_t>(at.x / side)];
+    if (!tile) tile = std::make_unique<FusionTile>();
+    tile->begin_cell(static_cast<std::size_t>(at.y % side * side + at.x % side), known);
+    map_.layer(layer::elevation)[i] = elevation[i];
+    map_.layer(layer::variance)[i] = static_cast<float>(known.variance);
+    map_.layer(layer::rate)[i] = static_cast<float>(known.rate);
+    map_.layer(layer::rate_variance)[i] = static_cast<float>(known.rate_variance);
   }
-  updated_.assign(updated_.size(), stamp);
-  last_stamp_ = stamp;
-  has_stamp_ = true;
+  epoch_ = last_stamp_ = stamp;
+  scan_ = 1;
 }
 
-void HeightFusion::check_parameters() const {
-  const auto& p = parameters_;
-  const auto finite = [](double v) { return std::isfinite(v); };
-  require(p.sensor.range_sigma > 0 && finite(p.sensor.range_sigma), "range_sigma", p.sensor.range_sigma,
-          "positive and finite");
-  require(p.sensor.range_sigma_per_metre >= 0 && finite(p.sensor.range_sigma_per_metre),
-          "range_sigma_per_metre", p.sensor.range_sigma_per_metre, "zero or positive");
-  require(p.change_rate >= 0 && finite(p.change_rate), "change_rate", p.change_rate, "zero or positive");
-  require(p.gate_sigma > 0, "gate_sigma", p.gate_sigma, "positive");
-  require(p.gate_patience >= 0 && p.gate_patience < 255, "gate_patience", p.gate_patience, "from 0 to 254");
-  require(p.min_range >= 0 && finite(p.min_range), "min_range", p.min_range, "zero or positive");
-  require(p.max_range > p.min_range, "max_range", p.max_range, "greater than min_range");
-}
+HeightFusion::~HeightFusion() = default;
+HeightFusion::HeightFusion(HeightFusion&&) noexcept = default;
+HeightFusion& HeightFusion::operator=(HeightFusion&&) noexcept = default;
 
 FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d& pose, double stamp) {
+  return add(cloud, pose, stamp, parameters_.sensor);
+}
+
+FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d& pose, double stamp,
+                               const SensorNoise& sensor) {
   if (cloud.y.size() != cloud.size() || cloud.z.size() != cloud.size())
     throw Error("fusion: the cloud has " + std::to_string(cloud.x.size()) + " x, " +
                 std::to_string(cloud.y.size()) + " y and " + std::to_string(cloud.z.size()) +
                 " z, must be as many of each");
   require(std::isfinite(stamp), "stamp", stamp, "finite");
   if (!pose.matrix().allFinite()) throw Error("fusion: the pose of the sensor is not finite");
+  sensor.require_valid(parameters_.min_range, parameters_.max_range);
   set_clock(stamp);
 
   FusionResult result;
   result.changed = TileMask(map_.geometry());
-  gather(cloud, pose, result);
-  update(stamp, result);
+  workers_->reset();
+  workers_->sort_into_tiles(cloud, locator(cloud, pose, map_.geometry(), parameters_, sensor), tiles_.size());
+  work_on_tiles(result);
+  PointCounts counts;
+  for (const Workers::Worker& worker : workers_->of_threads) {
+    counts.add(worker.counts);
+    result.outlier_cells += worker.outlier_cells;
+  }
+  result.used = counts.used;
+  result.not_finite = counts.not_finite;
+  result.out_of_range = counts.out_of_range;
+  result.outside = counts.outside;
   return result;
 }
 
-void HeightFusion::set_clock(double stamp) {
-  if (has_stamp_ && stamp < last_stamp_) {
-    auto& variance = map_.layer(layer::variance);
-    const double rate = parameters_.change_rate * parameters_.change_rate;
-    for (std::size_t i = 0; i < variance.size(); ++i) {
-      variance[i] += static_cast<float>(rate * (last_stamp_ - updated_[i]));
-      updated_[i] = stamp;
-    }
-  }
-  last_stamp_ = stamp;
-  has_stamp_ = true;
-}
-
-void HeightFusion::gather(const PointCloud& cloud, const Eigen::Isometry3d& pose, FusionResult& result) {
-  const GridGeometry& g = map_.geometry();
-  const PointModel model(cloud, pose, g, parameters_);
-  const double nearest = parameters_.min_range * parameters_.min_range;
-  const double farthest = parameters_.max_range * parameters_.max_range;
-  const double per_cell = 1 / g.cell();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d point(cloud.x[i], cloud.y[i], cloud.z[i]);
-    const double squared_range = model.squared_range(point);
-    if (!std::isfinite(squared_range)) {
-      ++result.not_finite;
-      continue;
-    }
-    const bool in_range = squared_range > 0 && squared_range >= nearest && squared_range <= farthest;
-    if (!in_range && !model.georeferenced()) {
-      ++result.out_of_range;
-      continue;
-    }
-    const Eigen::Vector3d turned = model.turned(point);
-    const double cx = (turned.x() + model.offset().x()) * per_cell;
-    const double cy = (turned.y() + model.offset().y()) * per_cell;
-    if (!(cx >= 0 && cy >= 0 && cx < g.nx() && cy < g.ny())) {
-      ++result.outside;
-      continue;
-    }
-    const std::size_t cell = g.index(static_cast<int>(cx), static_cast<int>(cy));
-    const double weight = model.weight(turned.z(), squared_range);
-    Sums& sums = sums_[cell];
-    if (sums.weight == 0) touched_.push_back(static_cast<std::uint32_t>(cell));
-    sums.weight += weight;
-    sums.weighted_height += weight * (turned.z() + model.offset().z());
-    ++result.used;
-  }
-}
-
-void HeightFusion::update(double stamp, FusionResult& result) {
-  auto& elevation = map_.layer(layer::elevation);
-  auto& variance = map_.layer(layer::variance);
-  const auto nx = static_cast<std::uint32_t>(map_.geometry().nx());
-  const double rate = parameters_.change_rate * parameters_.change_rate;
-  const double squared_gate = parameters_.gate_sigma * parameters_.gate_sigma;
-  for (const std::uint32_t cell : touched_) {
-    const double measured = sums_[cell].weighted_height / sums_[cell].weight;
-    const double noise = 1 / sums_[cell].weight;
-    sums_[cell] = {};
-
-    double height = measured;
-    double spread = noise;
-    if (std::isfinite(elevation[cell])) {
-      const double known = static_cast<double>(elevation[cell]);
-      const double predicted = static_cast<double>(variance[cell]) + rate * (stamp - updated_[cell]);
-      const double innovation = measured - known;
-      if (innovation * innovation <= squared_gate * (predicted + noise)) {
-        const double gain = predicted / (predicted + noise);
-        height = known + gain * innovation;
-        spread = gain * noise;
-      } else if (refusals_[cell] < parameters_.gate_patience) {
-        ++refusals_[cell];
-        ++result.outlier_cells;
-        continue;
+void HeightFusion::work_on_tiles(FusionResult& result) {
+  std::vector<std::size_t> active;
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
+    for (const Workers::Worker& worker : workers_->of_threads)
+      if (worker.buckets.has(tile)) {
+        active.push_back(tile);
+        break;
       }
-    }
-    elevation[cell] = static_cast<float>(height);
-    variance[cell] = static_cast<float>(spread);
-    updated_[cell] = stamp;
-    refusals_[cell] = 0;
-    result.changed.activate(static_cast<int>(cell % nx), static_cast<int>(cell / nx));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size()),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Workers::Worker& own = workers_->of_threads.local();
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        const std::size_t at = active[i];
+                        if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
+                        FusionTile& tile = *tiles_[at];
+                        std::size_t agreeing = 0;
+                        const TileLayers layers = layers_of_tile(at);
+                        FusionTile::prefetch(layers);
+                        tile.open(scan_, newest_, rules_, own.steps);
+                        for (const Workers::Worker& worker : workers_->of_threads)
+                          worker.buckets.for_each(at, [&](const Sample* samples, std::size_t count) {
+                            agreeing += tile.add(samples, count, rules_);
+                          });
+                        const FusionTile::Result of_tile = tile.publish(rules_, layers);
+                        own.outlier_cells += of_tile.outlier_cells;
+                        if (agreeing + of_tile.new_cells > 0) {
+                          const int tiles_x = result.changed.tiles_x();
+                          result.changed.set_tile(static_cast<int>(at) % tiles_x,
+                                                  static_cast<int>(at) / tiles_x);
+                        }
+                      }
+                    });
+}
+
+TileLayers HeightFusion::layers_of_tile(std::size_t tile) {
+  const GridGeometry& g = map_.geometry();
+  constexpr int side = FusionTile::side;
+  const int tiles_x = (g.nx() + side - 1) / side;
+  const auto first = static_cast<std::ptrdiff_t>(
+      g.index(static_cast<int>(tile) % tiles_x * side, static_cast<int>(tile) / tiles_x * side));
+  const auto at = [&](const std::string& name) { return map_.layer(name).data() + first; };
+  return {at(layer::elevation), at(layer::variance), at(layer::rate), at(layer::rate_variance),
+          static_cast<std::size_t>(g.nx())};
+}
+
+void HeightFusion::set_clock(double stamp) {
+  if (scan_ != 0 && stamp == last_stamp_) return;
+  const double newest_stamp = epoch_ + 1e-3 * newest_;
+  const bool jumped = scan_ != 0 && (stamp < newest_stamp - greatest_delay || stamp < epoch_ ||
+                                     stamp - epoch_ > 1e-3 * longest_time);
+  if (jumped) {
+    const auto end = newest_ + static_cast<std::uint32_t>(std::clamp(stamp - newest_stamp, 0.0, 1e5) * 1e3);
+    BedSteps steps(parameters_.change);
+    for (const auto& tile : tiles_)
+      if (tile) tile->restart_clock(end, rules_, steps);
   }
-  touched_.clear();
+  if (scan_ == 0 || jumped) {
+    epoch_ = stamp;
+    newest_ = 0;
+  }
+  newest_ = std::max(newest_, static_cast<std::uint32_t>(std::llround(1e3 * (stamp - epoch_))));
+  last_stamp_ = stamp;
+  ++scan_;
+}
+
+HeightMap::Layer HeightFusion::counts() const {
+  HeightMap::Layer counts(map_.geometry().size(), HeightMap::unknown);
+  const GridGeometry& g = map_.geometry();
+  const TileMask tiling(g);
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
+    if (tiles_[tile]) {
+      const auto tiles_x = static_cast<std::size_t>(tiling.tiles_x());
+      const CellRange range = tiling.range(static_cast<int>(tile % tiles_x), static_cast<int>(tile / tiles_x));
+      tiles_[tile]->write_counts(rules_, counts.data() + g.index(range.x0, range.y0),
+                                 static_cast<std::size_t>(g.nx()));
+    }
+  return counts;
 }
 
 void HeightFusion::clear() {
-  map_.add(layer::elevation);
-  map_.add(layer::variance);
-  refusals_.assign(refusals_.size(), 0);
-  has_stamp_ = false;
+  for (const auto& name : {layer::elevation, layer::variance, layer::rate, layer::rate_variance})
+    map_.add(name);
+  const TileMask tiling(map_.geometry());
+  tiles_.clear();
+  tiles_.resize(static_cast<std::size_t>(tiling.tiles_x()) * static_cast<std::size_t>(tiling.tiles_y()));
+  scan_ = 0;
 }
 
 }  // namespace aeolian

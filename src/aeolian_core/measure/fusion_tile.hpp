@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "aeolian_core/measure/lower_surface.hpp"
+#include "aeolian_core/measure/tile_filter.hpp"
+
+namespace aeolian {
+
+/// What all tiles of a fusion share.
+struct FusionRules {
+  SurfaceGate gate;
+  bool robust = true;
+  int patience = 2;
+  double first_rate_variance = 0;  ///< of a new cell [m^2/s^2]
+  float known_rate_variance = 0;   ///< of a cell that knows something of its rate [m^2/s^2]
+};
+
+/// Where a tile writes its estimates: the layers of the map from the tile's first cell on, rows `stride` apart.
+struct TileLayers {
+  float* elevation;
+  float* variance;
+  float* rate;
+  float* rate_variance;
+  std::size_t stride;
+};
+
+/// What a cell says of the bed.
+struct CellEstimate {
+  double height = 0;         ///< [m]
+  double variance = 0;       ///< [m^2]
+  double rate = 0;           ///< [m/s]
+  double rate_variance = 0;  ///< [m^2/s^2]
+};
+
+/// Up to 32 x 32 cells of the live height map.
+///
+/// Points that agree with their cell's prediction go into its sums. All others, and those of unknown cells,
+/// are set aside, sorted; their lower surface begins a new cell, or replaces a known one when it persists.
+/// Everything is a function of what is known before the scan and of the set of the scan's points, not of
+/// their order.
+class FusionTile {
+ public:
+  static constexpr int side = TileFilter::side;
+  static constexpr std::size_t cell_count = TileFilter::cells;
+
+  /// Lets the processor fetch what publish() writes: rows of a large map, which it does not foresee.
+  static void prefetch(const TileLayers& layers);
+  /// Makes `scan` (at `time` [ms]) the open one, after taking in the one before.
+  void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, BedSteps& steps);
+  /// Adds samples to the open scan; how many agree with what is known.
+  std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules);
+  struct Result {
+    std::size_t new_cells = 0;      ///< that begin, or begin anew, in the open scan
+    std::size_t outlier_cells = 0;  ///< whose points were refused
+  };
+  /// Writes the estimates of the cells with points in the open scan.
+  Result publish(const FusionRules& rules, const TileLayers& layers);
+
+  /// Begins a cell from a known map at time zero; no scan may be open.
+  void begin_cell(std::size_t cell, const CellEstimate& known);
+  /// Moves on to the time `end`, which then is zero: the clock jumped back.
+  void restart_clock(std::uint32_t end, const FusionRules& rules, BedSteps& steps);
+  /// Writes the number of points on which each known cell rests, the open scan included; rows `stride` apart.
+  void write_counts(const FusionRules& rules, float* counts, std::size_t stride) const;
+
+ private:
+  enum class Verdict { agrees, refused, begins };
+
+  bool known(std::size_t cell) const { return filter_.height_variance[cell] > 0; }
+  void judge_motion(const TileMotion& motion);
+  void take_set_aside(const FusionRules& rules);
+  void forget_refusals();
+  void sort_set_aside();
+  int refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
+  Verdict judge(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
+
+  TileFilter filter_;
+  std::array<std::uint32_t, cell_count> count_{};    ///< points on which a known cell rests
+  std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
+  std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
+  bool any_refusals_ = false;
+  std::vector<Sample> set_aside_;
+  std::size_t sorted_ = 0;  ///< of those set aside, how many lie in order
+  std::uint32_t scan_ = 0;  ///< 0: none
+  std::uint32_t time_ = 0;  ///< [ms]
+  bool still_ = false;
+};
+
+}  // namespace aeolian
