@@ -14,7 +14,7 @@ BedChange BedChange::of_ripples(double celerity, double wavelength, double heigh
                   std::to_string(celerity) + ", " + std::to_string(wavelength) + " and " +
                   std::to_string(height) + ", must be positive");
   const double frequency = 2 * M_PI * celerity / wavelength;
-  return {frequency * height / std::sqrt(8.0), 2.5 / frequency};
+  return {frequency * height / std::sqrt(8.0), 2.1 / frequency};
 }
 
 // The moments of an integrated Ornstein-Uhlenbeck process over x = seconds / rate_time; where they would

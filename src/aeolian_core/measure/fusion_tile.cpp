@@ -6,13 +6,15 @@
 namespace aeolian {
 namespace {
 
-// When a tile is taken to be still. `rate` is the mean of rate^2 / variance over its cells: 1/4 on a still bed
-// (the noise's share of the tracking filter's variance), more than 1 where ripples pass. `drift` is the mean
-// of (tracked - still height)^2 / tracked variance: 3/4 on a still bed.
-constexpr double still_rate = 0.32;
-constexpr double moving_rate = 0.45;
-constexpr double moving_drift = 1.15;
+// When a tile is taken to be still. `rate` is the mean of rate^2 / variance over its n cells: up to 1/4 on a
+// still bed (the noise's share of the tracking filter's variance), more than 1 where ripples pass. `drift` is
+// the mean of (tracked - still height)^2 / tracked variance: about 3/4 on a still bed. Both scatter as
+// 1 / sqrt(n); noise that is 15 % more than the sensor's model says looks like motion.
 constexpr std::int64_t least_cells = 64;
+bool looks_still(double rate, double scatter) { return rate < 0.25 + 0.7 * scatter; }
+bool looks_moving(double rate, double drift, double scatter) {
+  return rate > 0.30 + scatter || drift > 0.82 + 3.4 * scatter;
+}
 
 SurfaceSum surface(const Sample* begin, const Sample* end, const FusionRules& rules) {
   return rules.robust ? lower_surface(begin, end, rules.gate) : whole_surface(begin, end);
@@ -85,7 +87,8 @@ void FusionTile::judge_motion(const TileMotion& motion) {
   const double scale = 1 / (TileMotion::unit * static_cast<double>(motion.cells));
   const double rate = scale * static_cast<double>(motion.rate);
   const double drift = scale * static_cast<double>(motion.drift);
-  still_ = still_ ? rate < moving_rate && drift < moving_drift : rate < still_rate;
+  const double scatter = 1 / std::sqrt(static_cast<double>(motion.cells));
+  still_ = still_ ? !looks_moving(rate, drift, scatter) : looks_still(rate, scatter);
 }
 
 int FusionTile::refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const {

@@ -6,7 +6,7 @@
 namespace aeolian {
 namespace {
 
-constexpr double least_support = 0.1;  // of the fullest window
+constexpr double least_support = 0.3;  // of the fullest window
 constexpr int most_rounds = 10;
 
 /// The samples from `first` on within twice the gate's reach above it.

@@ -39,7 +39,7 @@ struct SurfaceSum {
 SurfaceSum whole_surface(const Sample* begin, const Sample* end);
 
 /// Those of some samples of one cell, sorted, that belong to its lowest surface: the lowest window of the
-/// gate's width that holds at least a tenth as many samples as the fullest, then those within the gate about
+/// gate's width that holds at least 0.3 times as many samples as the fullest, then those within the gate about
 /// their mean. Grains in flight, plants and roofs above are left out, and so are stray points far below.
 SurfaceSum lower_surface(const Sample* begin, const Sample* end, const SurfaceGate& gate);
 

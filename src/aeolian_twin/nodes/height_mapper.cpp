@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "aeolian_core/surface/geotiff.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/sensor_file.hpp"
 
 namespace aeolian {
 
@@ -36,13 +38,21 @@ class HeightMapper : public Node {
     tf_timeout_ = ros::WallDuration(parameters().number("tf_timeout"));
     fusion_parameters_.sensor.range_sigma = parameters().number("range_sigma");
     fusion_parameters_.sensor.range_sigma_per_metre = parameters().number("range_sigma_per_metre");
-    fusion_parameters_.change_rate = parameters().number("change_rate");
+    fusion_parameters_.change.rate_sigma = parameters().number("rate_sigma");
+    fusion_parameters_.change.rate_time = parameters().number("rate_time");
+    fusion_parameters_.robust = parameters().flag("robust");
     fusion_parameters_.gate_sigma = parameters().number("gate_sigma");
     fusion_parameters_.gate_patience = parameters().integer("gate_patience");
     fusion_parameters_.min_range = parameters().number("min_range");
     fusion_parameters_.max_range = parameters().number("max_range");
     if (fusion_parameters_.min_range >= fusion_parameters_.max_range)
       parameters().refuse("min_range", "less than max_range");
+    if (const std::string file = parameters().text("sensor_file"); !file.empty()) {
+      const SensorFile sensor = read_sensor_file(file);
+      fusion_parameters_.sensor = sensor.noise;
+      fusion_parameters_.min_range = std::max(fusion_parameters_.min_range, sensor.min_range);
+      fusion_parameters_.max_range = std::min(fusion_parameters_.max_range, sensor.max_range);
+    }
     if ((parameters().number("length_x") > 0) != (parameters().number("length_y") > 0))
       parameters().refuse("length_y", "positive together with length_x, or 0 with it");
     if (parameters().number("length_x") > 0) {
@@ -249,7 +259,8 @@ NodeDescription describe_height_mapper() {
       "height_mapper",
       "keeps a live height map from point clouds",
       {"points (sensor_msgs/PointCloud2), with tf from its frame to ~frame_id"},
-      {"height_map (grid_map_msgs/GridMap, latched): elevation [m], variance [m^2]",
+      {"height_map (grid_map_msgs/GridMap, latched): elevation [m], variance [m^2], rate [m/s], "
+       "rate_variance [m^2/s^2]",
        "save_map, load_map, clear_map (std_srvs/Trigger): the map and ~map_file"},
       {
           frame_parameter(),
@@ -267,12 +278,17 @@ NodeDescription describe_height_mapper() {
            Limits::positive()},
           {"range_sigma_per_metre", fusion.sensor.range_sigma_per_metre, "m/m", "its growth with range",
            Limits::not_negative()},
-          {"change_rate", fusion.change_rate, "m/sqrt(s)", "how fast the surface may change (random walk)",
+          {"sensor_file", std::string(), "",
+           "file of config/sensors with the noise and the ranges of the sensor; empty: as said here"},
+          {"rate_sigma", fusion.change.rate_sigma, "m/s", "how fast the bed rises and sinks (rms)",
            Limits::not_negative()},
+          {"rate_time", fusion.change.rate_time, "s", "how long it goes on rising or sinking",
+           Limits::positive()},
+          {"robust", fusion.robust, "", "drop points that are not of the bed (grains in flight, flying pixels)"},
           {"gate_sigma", fusion.gate_sigma, "", "standard deviations beyond which a new height is an outlier",
            Limits::positive()},
           {"gate_patience", fusion.gate_patience, "",
-           "clouds in a row that may be outliers before a cell restarts", Limits::between(0, 100)},
+           "scans in a row that may disagree before a cell begins anew", Limits::between(0, 100)},
           {"min_range", fusion.min_range, "m", "nearer points are ignored", Limits::not_negative()},
           {"max_range", 1e9, "m", "farther points are ignored", Limits::positive()},
           {"tf_timeout", 2.0, "s", "a transform that is missing for so long is reported", Limits::positive()},

@@ -1,0 +1,88 @@
+/// The map is the same to the bit whatever the order, the chunks and the threads.
+#include <algorithm>
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include "aeolian_core/surface/random.hpp"
+#include "fusion_worlds.hpp"
+
+namespace aeolian {
+namespace {
+
+const std::vector<std::string> layers{layer::elevation, layer::variance, layer::rate, layer::rate_variance};
+
+/// Scans of a moving bed with grains in flight, flying pixels and holes, in the sensor's frame.
+class FusionOrder : public testing::Test {
+ protected:
+  static PointCloud scan(std::uint64_t number) {
+    RandomStream random(7, number);
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 40000; ++i) {
+      const double x = 1.02 * random.uniform() - 0.01;
+      double z = 0.003 * std::sin(60 * (x - 0.002 * static_cast<double>(number))) + 0.001 * random.normal();
+      if (random.uniform() < 0.03) z += 0.05 * random.uniform();
+      if (random.uniform() < 0.001) z = 3 * random.uniform() - 2;
+      points.emplace_back(x, 1.02 * random.uniform() - 0.01, z);
+    }
+    return seen_from(pose(), points);
+  }
+  static Eigen::Isometry3d pose() {
+    return looking_down(0.4, 0.5, 1.5) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY());
+  }
+  static PointCloud part(const PointCloud& cloud, std::size_t from, std::size_t to) {
+    PointCloud result;
+    for (std::size_t i = from; i < to; ++i) result.push_back(cloud.x[i], cloud.y[i], cloud.z[i]);
+    return result;
+  }
+
+  /// Adds scans 0 to 7 with `add(fusion, cloud, stamp)`.
+  template <class Add>
+  HeightMap map(Add&& add) const {
+    FusionParameters p;
+    p.sensor.range_sigma_per_metre = 2e-4;
+    p.sensor.angular_sigma = 1e-4;
+    HeightFusion fusion(GridGeometry(0, 0, 0.01, 100, 90), p);
+    for (std::uint64_t k = 0; k < 8; ++k) add(fusion, scan(k), 0.7 * static_cast<double>(k));
+    return fusion.map();
+  }
+  HeightMap whole() const {
+    return map([](HeightFusion& fusion, const PointCloud& cloud, double stamp) {
+      fusion.add(cloud, pose(), stamp);
+    });
+  }
+  static void expect_same_bits(const HeightMap& a, const HeightMap& b) {
+    for (const std::string& name : layers) {
+      const auto& x = a.layer(name);
+      const auto& y = b.layer(name);
+      EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(float)), 0) << name;
+    }
+  }
+};
+
+TEST_F(FusionOrder, OfPoints) {
+  expect_same_bits(whole(), map([](HeightFusion& fusion, PointCloud cloud, double stamp) {
+                     for (auto* values : {&cloud.x, &cloud.y, &cloud.z})
+                       std::reverse(values->begin(), values->end());
+                     fusion.add(cloud, pose(), stamp);
+                   }));
+}
+
+TEST_F(FusionOrder, OfChunks) {
+  expect_same_bits(whole(), map([](HeightFusion& fusion, const PointCloud& cloud, double stamp) {
+                     for (std::size_t from = 0; from < cloud.size(); from += 7777)
+                       fusion.add(part(cloud, from, std::min(from + 7777, cloud.size())), pose(), stamp);
+                   }));
+}
+
+TEST_F(FusionOrder, OfThreads) {
+  HeightMap one;
+  tbb::task_arena(1).execute([&] { one = whole(); });
+  HeightMap two;
+  tbb::task_arena(2).execute([&] { two = whole(); });
+  expect_same_bits(one, two);
+}
+
+}  // namespace
+}  // namespace aeolian

@@ -1,0 +1,152 @@
+/// fuse_clouds as a program, on clouds of our own and on real scans that are not ours.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "../temporary_folder.hpp"
+#include <gtest/gtest.h>
+
+#include "aeolian_core/surface/cloud_file.hpp"
+#include "aeolian_core/surface/geotiff.hpp"
+
+namespace aeolian {
+namespace {
+
+const std::string sensors = AEOLIAN_REPOSITORY "/config/sensors/";
+
+std::filesystem::path shared_data() {
+  const char* given = std::getenv("AEOLIAN_SHARED_DATA");
+  return given != nullptr ? std::filesystem::path(given)
+                          : std::filesystem::path(AEOLIAN_REPOSITORY) / "../shared/data";
+}
+
+class FuseClouds : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.file(name); }
+
+  /// Exit code; what it printed is in `text`.
+  int run(const std::string& arguments, std::string& text) const {
+    FILE* pipe = popen((AEOLIAN_BIN "/fuse_clouds " + arguments + " 2>&1").c_str(), "r");
+    text.clear();
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    return WEXITSTATUS(pclose(pipe));
+  }
+  HeightMap fuse(const std::string& arguments) const {
+    std::string text;
+    EXPECT_EQ(run(arguments + " --out " + path("map.tif"), text), 0) << text;
+    return read_geotiff(path("map.tif"));
+  }
+  void expect_refused(const std::string& arguments, const std::string& reason) const {
+    std::string text;
+    EXPECT_EQ(run(arguments, text), 1) << text;
+    EXPECT_NE(text.find(reason), std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  }
+  std::string write(const std::string& name, const std::string& content) const {
+    return folder_.write(name, content);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(FuseClouds, WritesHeightVarianceAndCount) {
+  // Beyond 1000 m the cloud is georeferenced: every height has the standard deviation of 0.15 m.
+  const std::string a = write("a.xyz", "500000.5 5000000.5 10.0\n500000.6 5000000.4 10.2\n500001.5 5000000.5 11.0\n");
+  const std::string b = write("b.xyz", "500000.4 5000000.5 10.4\n500001.5 5000001.5 12.0\n");
+  const std::string airborne = " --cell 1 --sensor " + sensors + "airborne_lidar.yaml";
+  const HeightMap map = fuse(a + " " + b + airborne);
+  EXPECT_EQ(map.names(), (std::vector<std::string>{"elevation", "variance", "count"}));
+  EXPECT_EQ(map.geometry(), GridGeometry(500000, 5000000, 1, 2, 2));
+  EXPECT_NEAR(map.layer("elevation")[0], 10.2, 2e-5);
+  EXPECT_NEAR(map.layer("variance")[0], 0.15 * 0.15 / 3, 1e-6);
+  EXPECT_EQ(map.layer("count")[0], 3);
+  EXPECT_EQ(map.layer("count")[1], 1);
+  EXPECT_TRUE(std::isnan(map.layer("count")[2]));
+  EXPECT_EQ(map.layer("elevation")[3], 12);
+
+  const HeightMap turned = fuse(b + " " + a + airborne);
+  EXPECT_EQ(turned.layer("elevation")[0], map.layer("elevation")[0]);
+
+  const HeightMap part = fuse(a + " --bounds 500001,5000000,500002,5000001" + airborne);
+  EXPECT_EQ(part.geometry(), GridGeometry(500001, 5000000, 1, 1, 1));
+  EXPECT_EQ(part.layer("elevation")[0], 11);
+}
+
+TEST_F(FuseClouds, RobustTakesTheLowerSurface) {
+  std::string points;
+  for (int i = 0; i < 10; ++i) points += "5000.5 0.5 " + std::to_string(0.001 * i) + "\n";
+  points += "5000.5 0.5 2.5\n5000.5 0.5 2.6\n5000.5 0.5 4\n";
+  const std::string cloud = write("a.xyz", points);
+  EXPECT_NEAR(fuse(cloud + " --cell 1 --robust").layer("elevation")[0], 0.0045, 2e-5);
+  EXPECT_NEAR(fuse(cloud + " --cell 1").layer("elevation")[0], (0.045 + 9.1) / 13, 2e-5);
+}
+
+TEST_F(FuseClouds, RefusesBadInputInOneLine) {
+  const std::string cloud = write("a.xyz", "0 0 1\n1 1 1\n");
+  const std::string out = " --out " + path("map.tif");
+  expect_refused(path("missing.pcd") + out, "missing.pcd");
+  expect_refused(cloud + out + " --bounds 1,1,0,0", "--bounds");
+  expect_refused(cloud + out + " --bounds 10,10,11,11", "none of 2 points can be used");
+  expect_refused(cloud + out + " --cell 1e-6", "cells");
+  const std::string sensor = write("sensor.yaml", "name: x\nrange_sigma_m: -1\n");
+  expect_refused(cloud + out + " --sensor " + sensor, "range_sigma_m is '-1', must be positive");
+  EXPECT_FALSE(std::filesystem::exists(path("map.tif")));
+}
+
+TEST_F(FuseClouds, EverySensorOfTheConfigurationIsRead) {
+  const std::string cloud = write("a.xyz", "0.1 0.1 -2\n0.2 0.2 -2\n");
+  std::size_t count = 0;
+  for (const auto& file : std::filesystem::directory_iterator(sensors)) {
+    const HeightMap map = fuse(cloud + " --cell 1 --sensor " + file.path().string());
+    EXPECT_NEAR(map.layer("elevation")[0], -2, 1e-5) << file.path();
+    ++count;
+  }
+  EXPECT_GE(count, 6U);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class AirborneScan : public FuseClouds, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, AirborneScan, testing::Values("samp11", "samp22", "samp31", "samp53"));
+
+// The lower surface of all returns against the map of the points labelled ground by hand.
+TEST_P(AirborneScan, RobustModeFindsTheGround) {
+  if (!std::filesystem::exists(shared_data())) GTEST_SKIP() << "no " << shared_data();
+  const std::string base = std::filesystem::absolute(shared_data() / "lidar-terrain" / GetParam()).string();
+  const std::string options = " --cell 1 --robust --sensor " + sensors + "airborne_lidar.yaml";
+  const HeightMap all = fuse(base + "-utm.pcd" + options);
+  const GridGeometry& g = all.geometry();
+  const HeightMap ground =
+      fuse(base + "-utm-ground.pcd" + options + " --bounds " + std::to_string(g.origin_x()) + "," +
+           std::to_string(g.origin_y()) + "," + std::to_string(g.origin_x() + g.length_x()) + "," +
+           std::to_string(g.origin_y() + g.length_y()));
+  ASSERT_EQ(ground.geometry(), g);
+  std::vector<double> differences;
+  double near = 0;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    if (!std::isfinite(ground.layer("elevation")[i])) continue;
+    const double d = static_cast<double>(all.layer("elevation")[i]) -
+                     static_cast<double>(ground.layer("elevation")[i]);
+    differences.push_back(d);
+    near += std::abs(d) <= 0.5 ? 1 : 0;
+  }
+  ASSERT_GT(differences.size(), 5000U);
+  const double middle = median(differences);
+  for (double& d : differences) d = std::abs(d - middle);
+  const double nmad = 1.4826 * median(differences);
+  const double share = near / static_cast<double>(differences.size());
+  RecordProperty("nmad_m", std::to_string(nmad));
+  RecordProperty("share_within_half_a_metre", std::to_string(share));
+  EXPECT_LT(nmad, 0.15);
+  EXPECT_GT(share, 0.9);
+}
+
+}  // namespace
+}  // namespace aeolian
