@@ -10,6 +10,7 @@
 
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/twin/comparison.hpp"
+#include "aeolian_core/twin/difference.hpp"
 
 namespace aeolian {
 namespace {
@@ -47,6 +48,22 @@ void compare_maps(benchmark::State& state, double direction) {
   state.counters["cells/s"] = benchmark::Counter(static_cast<double>(grid.size()), rate);
   state.counters["of_one_pass"] = benchmark::Counter(pass, rate);
 }
+
+/// Bias, RMSE and NMAD of a million differences, and the layer of differences. `of_one_pass` as above, for
+/// the two layers.
+void difference_of_maps(benchmark::State& state) {
+  const GridGeometry grid(0, 0, 0.002, 1000, 1000);
+  const HeightMap::Layer a = rippled(grid, 0.02, 1);
+  const HeightMap::Layer b = rippled(grid, 0.015, 2);
+  const HeightMap::Layer none;
+  const double pass = seconds_of_a_pass(a, b, none);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(difference_statistics(a, b));
+    benchmark::DoNotOptimize(difference(a, b));
+  }
+  state.counters["of_one_pass"] = benchmark::Counter(pass, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(difference_of_maps)->Unit(benchmark::kMillisecond);
 
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({500, 250})

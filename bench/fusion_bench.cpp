@@ -48,7 +48,8 @@ PointCloud random_points(std::size_t count, std::uint64_t number) {
   aeolian::RandomStream random(2, number);
   PointCloud cloud;
   for (std::size_t i = 0; i < count; ++i)
-    cloud.push_back(static_cast<float>(2 * random.uniform() - 1), static_cast<float>(2 * random.uniform() - 1),
+    cloud.push_back(static_cast<float>(2 * random.uniform() - 1),
+                    static_cast<float>(2 * random.uniform() - 1),
                     static_cast<float>(height_of_sensor + 0.0006 * random.normal()));
   return cloud;
 }
@@ -93,13 +94,14 @@ void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
   const double touched = cells * -std::expm1(-points / cells);
   const double bytes = points * (12 + 2 * 8) + touched * (64 + 16);
   state.counters["ms_quickest"] = 1e3 * quickest;
-  state.counters["points/s"] =
-      benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["points/s"] = benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate);
   state.counters["of_bandwidth"] = bytes * seconds_to_copy_a_byte() / quickest;
 }
 
 void BM_DepthImageOverTheMap(benchmark::State& state) { fuse(state, {depth_image(2, 0), depth_image(2, 1)}); }
-void BM_DepthImageOfAPart(benchmark::State& state) { fuse(state, {depth_image(0.8, 0), depth_image(0.8, 1)}); }
+void BM_DepthImageOfAPart(benchmark::State& state) {
+  fuse(state, {depth_image(0.8, 0), depth_image(0.8, 1)});
+}
 void BM_MillionRandomPoints(benchmark::State& state) {
   fuse(state, {random_points(1000000, 0), random_points(1000000, 1)});
 }

@@ -54,7 +54,8 @@ class FuseClouds : public testing::Test {
 
 TEST_F(FuseClouds, WritesHeightVarianceAndCount) {
   // Beyond 1000 m the cloud is georeferenced: every height has the standard deviation of 0.15 m.
-  const std::string a = write("a.xyz", "500000.5 5000000.5 10.0\n500000.6 5000000.4 10.2\n500001.5 5000000.5 11.0\n");
+  const std::string a =
+      write("a.xyz", "500000.5 5000000.5 10.0\n500000.6 5000000.4 10.2\n500001.5 5000000.5 11.0\n");
   const std::string b = write("b.xyz", "500000.4 5000000.5 10.4\n500001.5 5000001.5 12.0\n");
   const std::string airborne = " --cell 1 --sensor " + sensors + "airborne_lidar.yaml";
   const HeightMap map = fuse(a + " " + b + airborne);
@@ -132,8 +133,8 @@ TEST_P(AirborneScan, RobustModeFindsTheGround) {
   double near = 0;
   for (std::size_t i = 0; i < g.size(); ++i) {
     if (!std::isfinite(ground.layer("elevation")[i])) continue;
-    const double d = static_cast<double>(all.layer("elevation")[i]) -
-                     static_cast<double>(ground.layer("elevation")[i]);
+    const double d =
+        static_cast<double>(all.layer("elevation")[i]) - static_cast<double>(ground.layer("elevation")[i]);
     differences.push_back(d);
     near += std::abs(d) <= 0.5 ? 1 : 0;
   }

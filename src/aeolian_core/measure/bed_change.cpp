@@ -29,8 +29,8 @@ BedStep bed_step(const BedChange& change, double seconds) {
   step.height_per_rate = tau * lost;
   step.rate_variance = -s2 * std::expm1(-2 * x);
   step.covariance = s2 * tau * lost * lost;
-  const double moments = x < 1e-2 ? x * x * x * (2.0 / 3 - x * (0.5 - x * 7 / 30))
-                                  : 2 * x - 2 * lost - lost * lost;
+  const double moments =
+      x < 1e-2 ? x * x * x * (2.0 / 3 - x * (0.5 - x * 7 / 30)) : 2 * x - 2 * lost - lost * lost;
   step.height_variance = s2 * tau * tau * moments;
   return step;
 }

@@ -12,8 +12,8 @@ struct BedChange {
   double rate_sigma = 5.6e-5;  ///< [m/s]
   double rate_time = 67;       ///< [s]
 
-  /// Of ripples of a wavelength [m] and height (crest to trough) [m] that migrate at a celerity [m/s]. A point
-  /// of the bed then rises and sinks at the angular frequency w = 2 pi celerity / wavelength, so that
+  /// Of ripples of a wavelength [m] and height (crest to trough) [m] that migrate at a celerity [m/s]. A
+  /// point of the bed then rises and sinks at the angular frequency w = 2 pi celerity / wavelength, so that
   /// rate_sigma = w height / sqrt(8). rate_time = 2.1 / w is where the stated variance of a tracked sinusoid
   /// equals its mean square error (lag plus noise) at the gains of one to ten readings a cell and second.
   static BedChange of_ripples(double celerity, double wavelength, double height);

@@ -10,10 +10,10 @@ namespace aeolian {
 ///
 /// Heights count steps of 2^-17 m = 7.6 um in 32 bits: +-16 384 m, rounded to the nearest; the rounding adds
 /// (2.2 um)^2 to a variance. Weights (inverse variances) count 1/65536 of the weight of a reference variance
-/// in 22 bits: a point may be 8 times as sharp or, to some percent, 50 times as blunt as the reference; beyond
-/// 1/256 and 8 times it is taken to be at that bound. Sums are doubles that hold whole numbers: exact, and so
-/// the same in any order, while the sum of weight x |deviation| stays below 2^53 (30 million points of the
-/// reference weight 3 cm off their prediction).
+/// in 22 bits: a point may be 8 times as sharp or, to some percent, 50 times as blunt as the reference;
+/// beyond 1/256 and 8 times it is taken to be at that bound. Sums are doubles that hold whole numbers: exact,
+/// and so the same in any order, while the sum of weight x |deviation| stays below 2^53 (30 million points of
+/// the reference weight 3 cm off their prediction).
 namespace fixed {
 constexpr double steps_per_metre = 131072;
 constexpr double step = 1 / steps_per_metre;

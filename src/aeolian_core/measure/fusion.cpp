@@ -63,8 +63,7 @@ PointLocator locator(const PointCloud& cloud, const Eigen::Isometry3d& pose, con
   l.farthest = p.max_range * p.max_range;
   l.noise = sensor;
   l.reference_variance = reference_variance(p);
-  l.georeferenced =
-      Eigen::Vector3d(cloud.origin_x, cloud.origin_y, cloud.origin_z).norm() > p.max_range;
+  l.georeferenced = Eigen::Vector3d(cloud.origin_x, cloud.origin_y, cloud.origin_z).norm() > p.max_range;
   return l;
 }
 
@@ -101,8 +100,7 @@ struct HeightFusion::Workers {
           Sample sample[PointLocator::batch];
           for (std::size_t i = range.begin(); i < range.end(); i += PointLocator::batch) {
             const std::size_t count = std::min(PointLocator::batch, range.end() - i);
-            worker.counts.add(
-                locator.locate(&cloud.x[i], &cloud.y[i], &cloud.z[i], count, tile, sample));
+            worker.counts.add(locator.locate(&cloud.x[i], &cloud.y[i], &cloud.z[i], count, tile, sample));
             worker.buckets.add(tile, sample, count);
           }
         },
@@ -141,14 +139,14 @@ HeightFusion::HeightFusion(const HeightMap& map, const FusionParameters& paramet
   for (std::size_t i = 0; i < elevation.size(); ++i) {
     if (!std::isfinite(elevation[i])) continue;
     const CellIndex at = map.geometry().cell_at(i);
-    const CellEstimate known{
-        static_cast<double>(elevation[i]), variance[i] >= 0 ? or_else(variance[i], point) : point,
-        or_else(rate[i], 0),
-        rate_variance[i] >= 0 ? or_else(rate_variance[i], rules_.first_rate_variance)
-                              : rules_.first_rate_variance};
+    const CellEstimate known{static_cast<double>(elevation[i]),
+                             variance[i] >= 0 ? or_else(variance[i], point) : point, or_else(rate[i], 0),
+                             rate_variance[i] >= 0 ? or_else(rate_variance[i], rules_.first_rate_variance)
+                                                   : rules_.first_rate_variance};
     constexpr int side = FusionTile::side;
     const auto tiles_x = static_cast<std::size_t>((map.geometry().nx() + side - 1) / side);
-    auto& tile = tiles_[static_cast<std::size_t>(at.y / side) * tiles_x + static_cast<std::size_t>(at.x / side)];
+    auto& tile =
+        tiles_[static_cast<std::size_t>(at.y / side) * tiles_x + static_cast<std::size_t>(at.x / side)];
     if (!tile) tile = std::make_unique<FusionTile>();
     tile->begin_cell(static_cast<std::size_t>(at.y % side * side + at.x % side), known);
     map_.layer(layer::elevation)[i] = elevation[i];
@@ -204,30 +202,29 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
         active.push_back(tile);
         break;
       }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, active.size()),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      Workers::Worker& own = workers_->of_threads.local();
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        const std::size_t at = active[i];
-                        if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
-                        FusionTile& tile = *tiles_[at];
-                        std::size_t agreeing = 0;
-                        const TileLayers layers = layers_of_tile(at);
-                        FusionTile::prefetch(layers);
-                        tile.open(scan_, newest_, rules_, own.steps);
-                        for (const Workers::Worker& worker : workers_->of_threads)
-                          worker.buckets.for_each(at, [&](const Sample* samples, std::size_t count) {
-                            agreeing += tile.add(samples, count, rules_);
-                          });
-                        const FusionTile::Result of_tile = tile.publish(rules_, layers);
-                        own.outlier_cells += of_tile.outlier_cells;
-                        if (agreeing + of_tile.new_cells > 0) {
-                          const int tiles_x = result.changed.tiles_x();
-                          result.changed.set_tile(static_cast<int>(at) % tiles_x,
-                                                  static_cast<int>(at) / tiles_x);
-                        }
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, active.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+        Workers::Worker& own = workers_->of_threads.local();
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const std::size_t at = active[i];
+          if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
+          FusionTile& tile = *tiles_[at];
+          std::size_t agreeing = 0;
+          const TileLayers layers = layers_of_tile(at);
+          FusionTile::prefetch(layers);
+          tile.open(scan_, newest_, rules_, own.steps);
+          for (const Workers::Worker& worker : workers_->of_threads)
+            worker.buckets.for_each(at, [&](const Sample* samples, std::size_t count) {
+              agreeing += tile.add(samples, count, rules_);
+            });
+          const FusionTile::Result of_tile = tile.publish(rules_, layers);
+          own.outlier_cells += of_tile.outlier_cells;
+          if (agreeing + of_tile.new_cells > 0) {
+            const int tiles_x = result.changed.tiles_x();
+            result.changed.set_tile(static_cast<int>(at) % tiles_x, static_cast<int>(at) / tiles_x);
+          }
+        }
+      });
 }
 
 TileLayers HeightFusion::layers_of_tile(std::size_t tile) {
@@ -268,7 +265,8 @@ HeightMap::Layer HeightFusion::counts() const {
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
     if (tiles_[tile]) {
       const auto tiles_x = static_cast<std::size_t>(tiling.tiles_x());
-      const CellRange range = tiling.range(static_cast<int>(tile % tiles_x), static_cast<int>(tile / tiles_x));
+      const CellRange range =
+          tiling.range(static_cast<int>(tile % tiles_x), static_cast<int>(tile / tiles_x));
       tiles_[tile]->write_counts(rules_, counts.data() + g.index(range.x0, range.y0),
                                  static_cast<std::size_t>(g.nx()));
     }

@@ -98,8 +98,8 @@ class HeightFusion {
   FusionRules rules_;
   std::vector<std::unique_ptr<FusionTile>> tiles_;
   std::unique_ptr<Workers> workers_;
-  double epoch_ = 0;       ///< stamp of time zero of the cells [s]
-  double last_stamp_ = 0;  ///< [s]
+  double epoch_ = 0;          ///< stamp of time zero of the cells [s]
+  double last_stamp_ = 0;     ///< [s]
   std::uint32_t newest_ = 0;  ///< time of the newest scan [ms]
   std::uint32_t scan_ = 0;    ///< 0: none yet
 };

@@ -16,6 +16,8 @@ bool looks_moving(double rate, double drift, double scatter) {
   return rate > 0.30 + scatter || drift > 0.82 + 3.4 * scatter;
 }
 
+constexpr double highest_flight = 0.5;  // of grains over the bed [m]
+
 SurfaceSum surface(const Sample* begin, const Sample* end, const FusionRules& rules) {
   return rules.robust ? lower_surface(begin, end, rules.gate) : whole_surface(begin, end);
 }
@@ -49,8 +51,8 @@ void FusionTile::prefetch(const TileLayers& layers) {
 void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, BedSteps& steps) {
   if (scan == scan_) return;
   take_set_aside(rules);
-  judge_motion(close_scan(filter_, still_, static_cast<float>(rules.gate.weight_scale),
-                          rules.known_rate_variance));
+  judge_motion(
+      close_scan(filter_, still_, static_cast<float>(rules.gate.weight_scale), rules.known_rate_variance));
   if (time > time_) {
     predict(filter_, steps.after(time - time_));
     time_ = time;
@@ -106,9 +108,10 @@ FusionTile::Verdict FusionTile::judge(std::size_t cell, const SurfaceSum& sum,
                                       const FusionRules& rules) const {
   if (!known(cell)) return Verdict::begins;
   if (filter_.weight[cell] >= sum.weight) return Verdict::agrees;
-  const bool lower = sum.height() < fixed::metres(filter_.height[cell]);
+  const double drop = fixed::metres(filter_.height[cell]) - sum.height();
+  const bool under_a_grain = drop > 0 && drop < highest_flight && sum.count >= count_[cell];
   const bool persists = refusals_in_row(cell, sum, rules) > rules.patience;
-  return persists || (lower && sum.count >= count_[cell]) ? Verdict::begins : Verdict::refused;
+  return persists || under_a_grain ? Verdict::begins : Verdict::refused;
 }
 
 void FusionTile::take_set_aside(const FusionRules& rules) {
@@ -131,7 +134,8 @@ void FusionTile::take_set_aside(const FusionRules& rules) {
 /// Of cells with points that agree.
 void FusionTile::forget_refusals() {
   const auto has_set_aside = [&](std::size_t cell) {
-    return std::binary_search(set_aside_.begin(), set_aside_.end(), Sample(static_cast<std::uint32_t>(cell), 0, 0),
+    return std::binary_search(set_aside_.begin(), set_aside_.end(),
+                              Sample(static_cast<std::uint32_t>(cell), 0, 0),
                               [](Sample a, Sample b) { return a.cell() < b.cell(); });
   };
   any_refusals_ = false;
@@ -174,7 +178,8 @@ FusionTile::Result FusionTile::publish(const FusionRules& rules, const TileLayer
             static_cast<float>(rules.first_rate_variance));
     } else if (verdict == Verdict::refused) {
       ++result.outlier_cells;
-      write(at, estimates.height[at], estimates.variance[at], estimates.rate[at], estimates.rate_variance[at]);
+      write(at, estimates.height[at], estimates.variance[at], estimates.rate[at],
+            estimates.rate_variance[at]);
     }
   });
   return result;

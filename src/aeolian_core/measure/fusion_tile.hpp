@@ -18,7 +18,8 @@ struct FusionRules {
   float known_rate_variance = 0;   ///< of a cell that knows something of its rate [m^2/s^2]
 };
 
-/// Where a tile writes its estimates: the layers of the map from the tile's first cell on, rows `stride` apart.
+/// Where a tile writes its estimates: the layers of the map from the tile's first cell on, rows `stride`
+/// apart.
 struct TileLayers {
   float* elevation;
   float* variance;

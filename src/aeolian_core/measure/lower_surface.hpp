@@ -22,10 +22,10 @@ struct SurfaceGate {
 
 /// Samples of one surface, summed in whole numbers about a datum.
 struct SurfaceSum {
-  std::int32_t datum = 0;    ///< [steps]
-  std::uint32_t count = 0;   ///< samples
-  double weight = 0;         ///< sum of weights
-  double moment = 0;         ///< sum of weight x (height - datum) [steps]
+  std::int32_t datum = 0;   ///< [steps]
+  std::uint32_t count = 0;  ///< samples
+  double weight = 0;        ///< sum of weights
+  double moment = 0;        ///< sum of weight x (height - datum) [steps]
 
   void add(Sample sample) {
     ++count;
@@ -39,8 +39,9 @@ struct SurfaceSum {
 SurfaceSum whole_surface(const Sample* begin, const Sample* end);
 
 /// Those of some samples of one cell, sorted, that belong to its lowest surface: the lowest window of the
-/// gate's width that holds at least 0.3 times as many samples as the fullest, then those within the gate about
-/// their mean. Grains in flight, plants and roofs above are left out, and so are stray points far below.
+/// gate's width that holds at least 0.3 times as many samples as the fullest, then those within the gate
+/// about their mean. Grains in flight, plants and roofs above are left out, and so are stray points far
+/// below.
 SurfaceSum lower_surface(const Sample* begin, const Sample* end, const SurfaceGate& gate);
 
 }  // namespace aeolian

@@ -62,7 +62,7 @@ AEOLIAN_KERNEL void judge(const PointLocator& l, std::size_t count, Placed& plac
   const double nx = l.nx, ny = l.ny;
   const double nearest = l.georeferenced ? -1 : l.nearest;
   const double farthest = l.georeferenced ? 1e300 : l.farthest;
-  const double zero = l.georeferenced ? -1 : 0;
+  const double zero = l.georeferenced ? -1 : 1e-12;  // what drivers write for nothing seen
   constexpr double high = fixed::greatest_height * fixed::steps_per_metre;
   for (std::size_t i = 0; i < count; ++i) {
     const double squared = placed.squared[i];
@@ -70,8 +70,8 @@ AEOLIAN_KERNEL void judge(const PointLocator& l, std::size_t count, Placed& plac
     const double x = placed.x[i];
     const double y = placed.y[i];
     const int in_grid = (x >= 0) & (y >= 0) & (x < nx) & (y < ny);
-    const int in_range = (squared >= nearest) & (squared <= farthest) & (squared > zero) &
-                         (height >= -high) & (height <= high);
+    const int in_range = (squared >= nearest) & (squared <= farthest) & (squared > zero) & (height >= -high) &
+                         (height <= high);
     const int finite = squared <= 1e300;
     const int fate = finite ? (in_range ? (in_grid ? used : outside) : out_of_range) : not_finite;
     placed.fate[i] = fate;

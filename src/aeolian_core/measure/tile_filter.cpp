@@ -17,7 +17,9 @@ constexpr float motion_bound = 64;
 
 /// To the nearest whole number of steps.
 inline std::int32_t steps(float metres) {
-  const float bounded = metres < -longest_move ? -longest_move : metres > longest_move ? longest_move : metres;
+  const float bounded = metres < -longest_move  ? -longest_move
+                        : metres > longest_move ? longest_move
+                                                : metres;
   const float value = bounded * steps_per_metre;
   return static_cast<std::int32_t>(value + (value < 0 ? -0.5F : 0.5F));
 }
@@ -56,8 +58,8 @@ AEOLIAN_KERNEL TileMotion close_scan(TileFilter& f, bool still, float weight_sca
     const std::int32_t before = f.height[i];
     const std::int32_t height = bounded(before + steps(variance * pull));
     const float offset = f.still_offset[i];
-    const float still_offset = offset + ps * still_gain * (pull - information * offset) -
-                               static_cast<float>(height - before) * step;
+    const float still_offset =
+        offset + ps * still_gain * (pull - information * offset) - static_cast<float>(height - before) * step;
     f.height[i] = height;
     f.height_variance[i] = variance;
     f.covariance[i] = p01 * gain;
@@ -101,7 +103,8 @@ AEOLIAN_KERNEL void predict(TileFilter& f, const BedStep& bed) {
   }
 }
 
-AEOLIAN_KERNEL void estimate(const TileFilter& __restrict f, bool still, float weight_scale, TileEstimate& __restrict result) {
+AEOLIAN_KERNEL void estimate(const TileFilter& __restrict f, bool still, float weight_scale,
+                             TileEstimate& __restrict result) {
   const double information_of_weight = 1 / static_cast<double>(weight_scale);
   const double pull_of_moment = fixed::step * information_of_weight;
   const bool speaks = still;

@@ -9,8 +9,8 @@
 
 namespace aeolian {
 
-/// The filters of 32 x 32 cells, an array for each number: two Kalman filters a cell as predicted for the open
-/// scan, and the sums of the scan's points, from which the estimate follows.
+/// The filters of 32 x 32 cells, an array for each number: two Kalman filters a cell as predicted for the
+/// open scan, and the sums of the scan's points, from which the estimate follows.
 ///
 /// The first filter tracks height and rate under BedChange. The second takes the bed to be still: its
 /// variance falls as long as nothing moves. Which of them speaks, the tile decides.
@@ -18,15 +18,15 @@ struct TileFilter {
   static constexpr int side = TileMask::tile_cells;
   static constexpr std::size_t cells = std::size_t{side} * side;
 
-  std::int32_t height[cells] = {};     ///< tracked [steps]
-  float rate[cells] = {};              ///< [m/s]
-  float height_variance[cells] = {};   ///< [m^2]; 0: nothing is known of the cell
-  float covariance[cells] = {};        ///< [m^2/s]
-  float rate_variance[cells] = {};     ///< [m^2/s^2]
-  float still_offset[cells] = {};      ///< height of the still filter minus tracked height [m]
-  float still_variance[cells] = {};    ///< [m^2]
-  double weight[cells] = {};           ///< of the scan's points
-  double moment[cells] = {};           ///< of the scan's points: weight x (height - tracked) [steps]
+  std::int32_t height[cells] = {};    ///< tracked [steps]
+  float rate[cells] = {};             ///< [m/s]
+  float height_variance[cells] = {};  ///< [m^2]; 0: nothing is known of the cell
+  float covariance[cells] = {};       ///< [m^2/s]
+  float rate_variance[cells] = {};    ///< [m^2/s^2]
+  float still_offset[cells] = {};     ///< height of the still filter minus tracked height [m]
+  float still_variance[cells] = {};   ///< [m^2]
+  double weight[cells] = {};          ///< of the scan's points
+  double moment[cells] = {};          ///< of the scan's points: weight x (height - tracked) [steps]
 };
 
 /// How much the cells of a tile seem to move, in whole numbers.

@@ -20,25 +20,28 @@ void require_same_size(const HeightMap::Layer& a, const HeightMap::Layer& b) {
 
 DifferenceStatistics difference_statistics(const HeightMap::Layer& a, const HeightMap::Layer& b) {
   require_same_size(a, b);
-  std::vector<double> differences;
-  differences.reserve(a.size());
+  const auto difference_at = [&](std::size_t i) {
+    const double d = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    return std::isfinite(d) ? d : NAN;
+  };
+  DifferenceStatistics result;
   double sum = 0;
   double sum_of_squares = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double d = static_cast<double>(a[i]) - static_cast<double>(b[i]);
-    if (!std::isfinite(d)) continue;
-    differences.push_back(d);
-    sum += d;
-    sum_of_squares += d * d;
+    const double d = difference_at(i);
+    const bool known = !std::isnan(d);
+    const double counted = known ? d : 0;
+    result.cells += known ? 1 : 0;
+    sum += counted;
+    sum_of_squares += counted * counted;
   }
-  DifferenceStatistics result;
-  result.cells = differences.size();
   const auto count = static_cast<double>(result.cells);
   result.bias = sum / count;
   result.rmse = std::sqrt(sum_of_squares / count);
-  const double middle = quantile(differences, 0.5);
-  for (double& d : differences) d = std::abs(d - middle);
-  result.nmad = mad_to_sigma * quantile(differences, 0.5);
+  const double middle = quantile_of(a.size(), result.cells, 0.5, difference_at);
+  result.nmad = mad_to_sigma * quantile_of(a.size(), result.cells, 0.5, [&](std::size_t i) {
+                  return std::abs(difference_at(i) - middle);
+                });
   return result;
 }
 

@@ -79,9 +79,10 @@ Box bounds_of(const Options& options, const Progress& progress) {
   if (!options.bounds.empty()) {
     const auto& b = options.bounds;
     if (!(b[0] < b[2] && b[1] < b[3]))
-      throw Error(fmt::format("--bounds: {},{},{},{} is empty, must be xmin,ymin,xmax,ymax with xmin < xmax and "
-                              "ymin < ymax",
-                              b[0], b[1], b[2], b[3]));
+      throw Error(
+          fmt::format("--bounds: {},{},{},{} is empty, must be xmin,ymin,xmax,ymax with xmin < xmax and "
+                      "ymin < ymax",
+                      b[0], b[1], b[2], b[3]));
     return {b[0], b[1], b[2], b[3]};
   }
   std::size_t points = 0;
@@ -98,12 +99,13 @@ GridGeometry grid_of(const Options& options, const Progress& progress) {
   const Box box = bounds_of(options, progress);
   // Cells are half open: a point on the far border is inside the next.
   const double margin = options.bounds.empty() ? 1e-3 * options.cell : 0;
-  const double cells =
-      (box.max_x - box.min_x + options.cell) * (box.max_y - box.min_y + options.cell) / (options.cell * options.cell);
+  const double cells = (box.max_x - box.min_x + options.cell) * (box.max_y - box.min_y + options.cell) /
+                       (options.cell * options.cell);
   if (!(cells <= most_cells))
-    throw Error(fmt::format("a map of {:g} m x {:g} m in cells of {:g} m has {:.3g} cells, at most {:g} are allowed "
-                            "(a larger --cell or smaller --bounds)",
-                            box.max_x - box.min_x, box.max_y - box.min_y, options.cell, cells, most_cells));
+    throw Error(
+        fmt::format("a map of {:g} m x {:g} m in cells of {:g} m has {:.3g} cells, at most {:g} are allowed "
+                    "(a larger --cell or smaller --bounds)",
+                    box.max_x - box.min_x, box.max_y - box.min_y, options.cell, cells, most_cells));
   return GridGeometry::covering(box.min_x, box.min_y, box.max_x + margin, box.max_y + margin, options.cell);
 }
 
@@ -154,7 +156,9 @@ int run(int argc, char** argv) {
   CLI::App app(description);
   Options options;
   app.add_option("CLOUD", options.clouds, "files of points")->required();
-  app.add_option("--cell", options.cell, "side of a cell [m]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--cell", options.cell, "side of a cell [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--out", options.out, "GeoTIFF to write")->required();
   app.add_flag("--robust", options.robust, "the lowest surface of each cell");
   app.add_option("--sensor", options.sensor, "noise and ranges of the sensor: a file of config/sensors");

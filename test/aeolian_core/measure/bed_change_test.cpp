@@ -26,8 +26,7 @@ BedStep chain(const BedStep& a, const BedStep& b) {
   const double k = b.rate_kept;
   c.height_per_rate = a.height_per_rate + l * a.rate_kept;
   c.rate_kept = a.rate_kept * k;
-  c.height_variance =
-      a.height_variance + 2 * l * a.covariance + l * l * a.rate_variance + b.height_variance;
+  c.height_variance = a.height_variance + 2 * l * a.covariance + l * l * a.rate_variance + b.height_variance;
   c.covariance = k * (a.covariance + l * a.rate_variance) + b.covariance;
   c.rate_variance = k * k * a.rate_variance + b.rate_variance;
   return c;

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include "aeolian_core/surface/random.hpp"
-#include "fusion_worlds.hpp"
 
 namespace aeolian {
 namespace {

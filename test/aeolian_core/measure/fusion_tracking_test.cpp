@@ -1,10 +1,10 @@
 /// Change is signal: migrating ripples, still beds, beds that begin to move and that stop.
 #include <cmath>
 
+#include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/random.hpp"
-#include "fusion_worlds.hpp"
 
 namespace aeolian {
 namespace {
@@ -18,11 +18,11 @@ constexpr double tail = 1.5e-4;
 /// How a map follows a sinusoid over the last scans.
 struct Following {
   double rmse = 0;
-  double gain = 0;             ///< amplitude over the true one
-  double chi2 = 0;             ///< mean of error^2 / stated variance
-  double rate_rmse = 0;        ///< [m/s]
-  double refused = 0;          ///< share of the points that were refused
-  double worst_rmse = 0;       ///< of any scan after the bed began to move
+  double gain = 0;        ///< amplitude over the true one
+  double chi2 = 0;        ///< mean of error^2 / stated variance
+  double rate_rmse = 0;   ///< [m/s]
+  double refused = 0;     ///< share of the points that were refused
+  double worst_rmse = 0;  ///< of any scan after the bed began to move
 };
 
 struct Scene {

@@ -1,5 +1,6 @@
 #include "aeolian_core/twin/difference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,26 @@ TEST(Quantile, LinearBetweenOrderStatistics) {
   EXPECT_EQ(quantile(infinite, 0.25), -INFINITY);
   std::vector<double> none;
   EXPECT_TRUE(std::isnan(quantile(none, 0.5)));
+}
+
+// With ties, unknown values, constant, and in an order that misleads the probe.
+TEST(Quantile, IsTheSameWithoutStoringALargeSample) {
+  constexpr std::size_t count = 200000;
+  const auto expect_same = [&](auto value) {
+    std::vector<double> known;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!std::isnan(value(i))) known.push_back(value(i));
+    for (const double share : {0.0, 0.1, 0.5, 0.7301, 1.0}) {
+      std::vector<double> sample = known;
+      EXPECT_EQ(quantile_of(count, known.size(), share, value), quantile(sample, share)) << share;
+    }
+  };
+  const auto scrambled = [](std::size_t i) { return static_cast<double>(i * 7919 % 200003); };
+  expect_same(scrambled);
+  expect_same([&](std::size_t i) { return std::floor(scrambled(i) / 1000); });
+  expect_same([&](std::size_t i) { return i % 3 == 0 ? NAN : scrambled(i); });
+  expect_same([](std::size_t) { return 4.0; });
+  expect_same([&](std::size_t i) { return i * 16384 % 200000 < 16384 ? 0.0 : scrambled(i); });
 }
 
 }  // namespace
