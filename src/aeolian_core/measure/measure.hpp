@@ -4,8 +4,11 @@
 ///
 /// Point clouds are fused into a height map with its variance; a height map yields its ripple statistics. The
 /// forward models of the instruments (scanner, camera over a straightedge's shadow, anemometer) stand beside:
-/// a virtual field day is made with them. The shadow geometry follows Werner (1987), ch. V; `fusion` is a
-/// scalar Kalman filter per cell.
+/// a virtual field day is made with them. The shadow geometry follows Werner (1987), ch. V.
+///
+/// The way of a point into the map: `point_locator` (place and noise: `sensor_noise`), `sample_buckets` (by
+/// tile), `fusion_tile` (does it agree with its cell? else `lower_surface`), `tile_filter` (two Kalman filters
+/// a cell, under `bed_change`). `fixed_point` says why the result does not depend on order or threads.
 
 #include "aeolian_core/measure/fusion.hpp"
 #include "aeolian_core/measure/ripple_statistics.hpp"

@@ -29,8 +29,8 @@ struct Scene {
   double sigma = 0.001;
   double points_per_cell = 1;
   double interval = 1;
-  int scans = 400;
-  int scored = 100;
+  int scans = 250;
+  int scored = 80;
   double speed = celerity;
   double starts = 0;  ///< when the ripples begin to move [s]
   double stops = 1e9;
@@ -142,17 +142,17 @@ TEST(FusionTracking, DoesNotLagWhenCloudsComeRarely) {
 TEST(FusionTracking, AveragesOnWhileTheBedIsStill) {
   Scene run;
   run.speed = 0;
-  run.scans = 600;
+  run.scans = 400;
   run.scored = 1;
   const Following f = follow(run);
-  EXPECT_LT(f.rmse, 1.2 * run.sigma / std::sqrt(600.0));
+  EXPECT_LT(f.rmse, 1.2 * run.sigma / std::sqrt(400.0));
   EXPECT_NEAR(f.chi2, 1, 0.1);
 }
 
 TEST(FusionTracking, NoticesThatAStillBedBeginsToMove) {
   Scene run;
-  run.starts = 300;
-  run.scans = 500;
+  run.starts = 200;
+  run.scans = 340;
   run.scored = 60;
   const Following f = follow(run);
   EXPECT_LT(f.worst_rmse, 0.0006);
@@ -163,8 +163,8 @@ TEST(FusionTracking, NoticesThatAStillBedBeginsToMove) {
 
 TEST(FusionTracking, RestsAgainWhenTheBedStops) {
   Scene run;
-  run.stops = 200;
-  run.scans = 800;
+  run.stops = 100;
+  run.scans = 450;
   run.scored = 1;
   const Following f = follow(run);
   EXPECT_LT(f.rmse, 0.0001);
