@@ -155,10 +155,10 @@ void FusionTile::sort_set_aside() {
 FusionTile::Result FusionTile::publish(const FusionRules& rules, const TileLayers& layers) {
   TileEstimate estimates;
   estimate(filter_, still_, static_cast<float>(rules.gate.weight_scale), estimates);
-  write_touched(filter_, estimates.height, layers.elevation, layers.stride);
-  write_touched(filter_, estimates.variance, layers.variance, layers.stride);
-  write_touched(filter_, estimates.rate, layers.rate, layers.stride);
-  write_touched(filter_, estimates.rate_variance, layers.rate_variance, layers.stride);
+  write_touched(estimates, estimates.height, layers.elevation, layers.stride);
+  write_touched(estimates, estimates.variance, layers.variance, layers.stride);
+  write_touched(estimates, estimates.rate, layers.rate, layers.stride);
+  write_touched(estimates, estimates.rate_variance, layers.rate_variance, layers.stride);
   Result result;
   if (set_aside_.empty()) return result;
 

@@ -7,8 +7,9 @@
 /// a virtual field day is made with them. The shadow geometry follows Werner (1987), ch. V.
 ///
 /// The way of a point into the map: `point_locator` (place and noise: `sensor_noise`), `sample_buckets` (by
-/// tile), `fusion_tile` (does it agree with its cell? else `lower_surface`), `tile_filter` (two Kalman filters
-/// a cell, under `bed_change`). `fixed_point` says why the result does not depend on order or threads.
+/// tile), `fusion_tile` (does it agree with its cell? else `lower_surface`), `tile_filter` (two Kalman
+/// filters a cell, under `bed_change`). `fixed_point` says why the result does not depend on order or
+/// threads.
 
 #include "aeolian_core/measure/fusion.hpp"
 #include "aeolian_core/measure/ripple_statistics.hpp"

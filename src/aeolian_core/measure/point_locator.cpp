@@ -18,10 +18,14 @@ struct Placed {
   double squared[batch];  ///< range [m^2]
   float rise[batch];      ///< over the sensor [m]
   std::int32_t weight[batch];
-  std::int32_t fate[batch];  ///< one of Fate
+  std::int32_t fate[batch];  ///< used, outside, out_of_range or not_finite
 };
 
-enum Fate { used = 0, outside = 1, out_of_range = 2, not_finite = 3 };
+/// What becomes of a point, as numbers that loops can choose between.
+constexpr int used = 0;
+constexpr int outside = 1;
+constexpr int out_of_range = 2;
+constexpr int not_finite = 3;
 
 AEOLIAN_KERNEL void place(const PointLocator& l, const float* __restrict px, const float* __restrict py,
                           const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
@@ -58,7 +62,7 @@ AEOLIAN_KERNEL void take_off_bias(const PointLocator& l, std::size_t count, Plac
   }
 }
 
-AEOLIAN_KERNEL void judge(const PointLocator& l, std::size_t count, Placed& placed) {
+AEOLIAN_KERNEL void judge(const PointLocator& l, std::size_t count, Placed& __restrict placed) {
   const double nx = l.nx, ny = l.ny;
   const double nearest = l.georeferenced ? -1 : l.nearest;
   const double farthest = l.georeferenced ? 1e300 : l.farthest;
@@ -69,15 +73,16 @@ AEOLIAN_KERNEL void judge(const PointLocator& l, std::size_t count, Placed& plac
     const double height = placed.height[i];
     const double x = placed.x[i];
     const double y = placed.y[i];
-    const int in_grid = (x >= 0) & (y >= 0) & (x < nx) & (y < ny);
-    const int in_range = (squared >= nearest) & (squared <= farthest) & (squared > zero) & (height >= -high) &
-                         (height <= high);
-    const int finite = squared <= 1e300;
-    const int fate = finite ? (in_range ? (in_grid ? used : outside) : out_of_range) : not_finite;
-    placed.fate[i] = fate;
-    placed.x[i] = fate == used ? x : 0;
-    placed.y[i] = fate == used ? y : 0;
-    placed.height[i] = fate == used ? height : 0;
+    // The worst last: a choice of doubles, which vectors can make.
+    double fate = used;
+    fate = (x >= 0) & (y >= 0) & (x < nx) & (y < ny) ? fate : outside;
+    fate = (squared >= nearest) & (squared <= farthest) ? fate : out_of_range;
+    fate = (squared > zero) & (height >= -high) & (height <= high) ? fate : out_of_range;
+    fate = squared <= 1e300 ? fate : not_finite;
+    placed.fate[i] = static_cast<std::int32_t>(fate);
+    placed.x[i] = fate > 0 ? 0 : x;
+    placed.y[i] = fate > 0 ? 0 : y;
+    placed.height[i] = fate > 0 ? 0 : height;
   }
 }
 
@@ -129,6 +134,9 @@ AEOLIAN_KERNEL void pack(const PointLocator& l, std::size_t count, const Placed&
 }
 
 AEOLIAN_KERNEL PointCounts count_fates(std::size_t count, const std::int32_t* fate) {
+  std::int32_t lost = 0;
+  for (std::size_t i = 0; i < count; ++i) lost |= fate[i];
+  if (lost == 0) return {count, 0, 0, 0};
   std::int32_t of_used = 0, of_outside = 0, of_range = 0, of_infinite = 0;
   for (std::size_t i = 0; i < count; ++i) {
     of_used += fate[i] == used ? 1 : 0;

@@ -29,8 +29,7 @@ class SampleBuckets {
       if (tiles[i] < 0) continue;
       Chain& chain = chains_[static_cast<std::size_t>(tiles[i])];
       if (chain.room == 0) append_block(chain);
-      Block& block = blocks_[chain.last];
-      block.samples[block_size - chain.room--] = samples[i];
+      blocks_[chain.last].samples[block_size - chain.room--] = samples[i];
     }
   }
   bool has(std::size_t tile) const { return tile < chains_.size() && chains_[tile].first != none; }

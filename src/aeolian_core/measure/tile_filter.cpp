@@ -119,6 +119,7 @@ AEOLIAN_KERNEL void estimate(const TileFilter& __restrict f, bool still, float w
     const float offset = f.still_offset[i];
     const float tracked = p00 * gain * pull;
     const float rested = offset + ps * still_gain * (pull - information * offset);
+    result.information[i] = information;
     result.height[i] = static_cast<float>(f.height[i]) * step + (speaks ? rested : tracked);
     result.variance[i] = speaks ? ps * still_gain : p00 * gain;
     result.rate[i] = f.rate[i] + p01 * gain * pull;
@@ -126,12 +127,16 @@ AEOLIAN_KERNEL void estimate(const TileFilter& __restrict f, bool still, float w
   }
 }
 
-AEOLIAN_KERNEL void write_touched(const TileFilter& __restrict f, const float* __restrict values,
+AEOLIAN_KERNEL void write_touched(const TileEstimate& __restrict estimate, const float* __restrict values,
                                   float* __restrict layer, std::size_t stride) {
   constexpr std::size_t side = TileFilter::side;
-  for (std::size_t row = 0; row < side; ++row)
+  for (std::size_t row = 0; row < side; ++row) {
+    const float* __restrict information = estimate.information + row * side;
+    const float* __restrict from = values + row * side;
+    float* __restrict to = layer + row * stride;
     for (std::size_t column = 0; column < side; ++column)
-      if (f.weight[row * side + column] > 0) layer[row * stride + column] = values[row * side + column];
+      if (information[column] > 0) to[column] = from[column];
+  }
 }
 
 }  // namespace aeolian

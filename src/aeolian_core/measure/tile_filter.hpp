@@ -46,6 +46,7 @@ void predict(TileFilter& filter, const BedStep& step);
 
 /// What the cells say of the bed, the open scan's points included.
 struct TileEstimate {
+  float information[TileFilter::cells];    ///< of the open scan's points; 0: the cell has none [1/m^2]
   float height[TileFilter::cells];         ///< [m]
   float variance[TileFilter::cells];       ///< [m^2]
   float rate[TileFilter::cells];           ///< [m/s]
@@ -54,8 +55,8 @@ struct TileEstimate {
 void estimate(const TileFilter& __restrict filter, bool still, float weight_scale,
               TileEstimate& __restrict result);
 
-/// Copies, from 32 x 32 values into rows `stride` apart, those of the cells with points in the open scan.
-void write_touched(const TileFilter& __restrict filter, const float* __restrict values,
+/// Copies one of the estimate's arrays into rows `stride` apart, for the cells with points in the open scan.
+void write_touched(const TileEstimate& __restrict estimate, const float* __restrict values,
                    float* __restrict layer, std::size_t stride);
 
 }  // namespace aeolian
