@@ -210,7 +210,7 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
           FusionTile& tile = *tiles_[at];
           std::size_t agreeing = 0;
-          const TileLayers layers = layers_of_tile(at);
+          const TileLayers layers = layers_of_tile(at, result.changed);
           FusionTile::prefetch(layers);
           tile.open(scan_, newest_, rules_, own.steps);
           for (const Workers::Worker& worker : workers_->of_threads)
@@ -227,15 +227,18 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
       });
 }
 
-TileLayers HeightFusion::layers_of_tile(std::size_t tile) {
+TileLayers HeightFusion::layers_of_tile(std::size_t tile, const TileMask& tiling) {
   const GridGeometry& g = map_.geometry();
-  constexpr int side = FusionTile::side;
-  const int tiles_x = (g.nx() + side - 1) / side;
-  const auto first = static_cast<std::ptrdiff_t>(
-      g.index(static_cast<int>(tile) % tiles_x * side, static_cast<int>(tile) / tiles_x * side));
-  const auto at = [&](const std::string& name) { return map_.layer(name).data() + first; };
-  return {at(layer::elevation), at(layer::variance), at(layer::rate), at(layer::rate_variance),
-          static_cast<std::size_t>(g.nx())};
+  const auto at = static_cast<int>(tile);
+  const CellRange range = tiling.range(at % tiling.tiles_x(), at / tiling.tiles_x());
+  const std::size_t first = g.index(range.x0, range.y0);
+  const auto data = [&](const std::string& name) { return map_.layer(name).data() + first; };
+  return {data(layer::elevation),
+          data(layer::variance),
+          data(layer::rate),
+          data(layer::rate_variance),
+          {static_cast<std::size_t>(range.y1 - range.y0), static_cast<std::size_t>(range.x1 - range.x0),
+           static_cast<std::size_t>(g.nx())}};
 }
 
 void HeightFusion::set_clock(double stamp) {

@@ -91,7 +91,7 @@ class HeightFusion {
 
   void set_clock(double stamp);
   void work_on_tiles(FusionResult& result);
-  TileLayers layers_of_tile(std::size_t tile);
+  TileLayers layers_of_tile(std::size_t tile, const TileMask& tiling);
 
   HeightMap map_;
   FusionParameters parameters_;

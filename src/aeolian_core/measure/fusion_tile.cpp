@@ -43,9 +43,9 @@ double variance_of(const SurfaceSum& sum, const FusionRules& rules) {
 void FusionTile::prefetch(const TileLayers& layers) {
   constexpr std::size_t floats_per_line = 16;
   for (float* const layer : {layers.elevation, layers.variance, layers.rate, layers.rate_variance})
-    for (std::size_t row = 0; row < side; ++row)
-      for (std::size_t column = 0; column < side; column += floats_per_line)
-        __builtin_prefetch(layer + row * layers.stride + column, 1);
+    for (std::size_t row = 0; row < layers.window.rows; ++row)
+      for (std::size_t column = 0; column < layers.window.columns; column += floats_per_line)
+        __builtin_prefetch(layer + row * layers.window.stride + column, 1);
 }
 
 void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, BedSteps& steps) {
@@ -155,15 +155,15 @@ void FusionTile::sort_set_aside() {
 FusionTile::Result FusionTile::publish(const FusionRules& rules, const TileLayers& layers) {
   TileEstimate estimates;
   estimate(filter_, still_, static_cast<float>(rules.gate.weight_scale), estimates);
-  write_touched(estimates, estimates.height, layers.elevation, layers.stride);
-  write_touched(estimates, estimates.variance, layers.variance, layers.stride);
-  write_touched(estimates, estimates.rate, layers.rate, layers.stride);
-  write_touched(estimates, estimates.rate_variance, layers.rate_variance, layers.stride);
+  write_touched(estimates, estimates.height, layers.elevation, layers.window);
+  write_touched(estimates, estimates.variance, layers.variance, layers.window);
+  write_touched(estimates, estimates.rate, layers.rate, layers.window);
+  write_touched(estimates, estimates.rate_variance, layers.rate_variance, layers.window);
   Result result;
   if (set_aside_.empty()) return result;
 
   const auto write = [&](std::size_t at, float height, float variance, float rate, float rate_variance) {
-    const std::size_t to = at / side * layers.stride + at % side;
+    const std::size_t to = at / side * layers.window.stride + at % side;
     layers.elevation[to] = height;
     layers.variance[to] = variance;
     layers.rate[to] = rate;

@@ -18,14 +18,13 @@ struct FusionRules {
   float known_rate_variance = 0;   ///< of a cell that knows something of its rate [m^2/s^2]
 };
 
-/// Where a tile writes its estimates: the layers of the map from the tile's first cell on, rows `stride`
-/// apart.
+/// Where a tile writes its estimates: the layers of the map from the tile's first cell on.
 struct TileLayers {
   float* elevation;
   float* variance;
   float* rate;
   float* rate_variance;
-  std::size_t stride;
+  TileWindow window;
 };
 
 /// What a cell says of the bed.

@@ -127,15 +127,16 @@ AEOLIAN_KERNEL void estimate(const TileFilter& __restrict f, bool still, float w
   }
 }
 
+// All cells are written, the others with what they hold: masked stores are slow on some processors.
 AEOLIAN_KERNEL void write_touched(const TileEstimate& __restrict estimate, const float* __restrict values,
-                                  float* __restrict layer, std::size_t stride) {
+                                  float* __restrict layer, const TileWindow& window) {
   constexpr std::size_t side = TileFilter::side;
-  for (std::size_t row = 0; row < side; ++row) {
+  for (std::size_t row = 0; row < window.rows; ++row) {
     const float* __restrict information = estimate.information + row * side;
     const float* __restrict from = values + row * side;
-    float* __restrict to = layer + row * stride;
-    for (std::size_t column = 0; column < side; ++column)
-      if (information[column] > 0) to[column] = from[column];
+    float* __restrict to = layer + row * window.stride;
+    for (std::size_t column = 0; column < window.columns; ++column)
+      to[column] = information[column] > 0 ? from[column] : to[column];
   }
 }
 

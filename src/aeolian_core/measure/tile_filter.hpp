@@ -55,8 +55,14 @@ struct TileEstimate {
 void estimate(const TileFilter& __restrict filter, bool still, float weight_scale,
               TileEstimate& __restrict result);
 
-/// Copies one of the estimate's arrays into rows `stride` apart, for the cells with points in the open scan.
+/// A layer of the map from a tile's first cell on: as many rows and columns as lie in the map, rows `stride`
+/// apart.
+struct TileWindow {
+  std::size_t rows, columns, stride;
+};
+
+/// Copies one of the estimate's arrays into a layer, for the cells with points in the open scan.
 void write_touched(const TileEstimate& __restrict estimate, const float* __restrict values,
-                   float* __restrict layer, std::size_t stride);
+                   float* __restrict layer, const TileWindow& window);
 
 }  // namespace aeolian
