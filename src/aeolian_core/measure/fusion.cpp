@@ -72,14 +72,14 @@ PointLocator locator(const PointCloud& cloud, const Eigen::Isometry3d& pose, con
 /// What each thread keeps for itself.
 struct HeightFusion::Workers {
   struct Worker {
-    explicit Worker(const BedChange& change) : steps(change) {}
+    explicit Worker(const HeightChange& change) : steps(change) {}
     SampleBuckets buckets;
     PointCounts counts;
-    BedSteps steps;
+    HeightSteps steps;
     std::size_t outlier_cells = 0;
   };
 
-  explicit Workers(const BedChange& change) : of_threads([change] { return Worker(change); }) {}
+  explicit Workers(const HeightChange& change) : of_threads([change] { return Worker(change); }) {}
   tbb::enumerable_thread_specific<Worker> of_threads;
 
   void reset() {
@@ -248,7 +248,7 @@ void HeightFusion::set_clock(double stamp) {
                                      stamp - epoch_ > 1e-3 * longest_time);
   if (jumped) {
     const auto end = newest_ + static_cast<std::uint32_t>(std::clamp(stamp - newest_stamp, 0.0, 1e5) * 1e3);
-    BedSteps steps(parameters_.change);
+    HeightSteps steps(parameters_.change);
     for (const auto& tile : tiles_)
       if (tile) tile->restart_clock(end, rules_, steps);
   }

@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "aeolian_core/measure/bed_change.hpp"
 #include "aeolian_core/measure/fusion_tile.hpp"
+#include "aeolian_core/measure/height_change.hpp"
 #include "aeolian_core/measure/sensor_noise.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
@@ -22,7 +22,7 @@ inline const std::string rate_variance = "rate_variance";  ///< of the rate [m^2
 
 struct FusionParameters {
   SensorNoise sensor;
-  BedChange change;
+  HeightChange change;
   /// Drop points that do not lie on the bed: grains in flight, flying pixels, plants. Otherwise each point
   /// counts.
   bool robust = true;
@@ -45,9 +45,9 @@ struct FusionResult {
   std::size_t outlier_cells = 0;  ///< cells whose points were refused by the gate
 };
 
-/// The live height map. Each cell tracks height and rate of change of the bed (BedChange) and, as long as its
-/// tile of 32 x 32 cells is still, averages on without end; points are weighed by SensorNoise. One pass over
-/// the points, no separate step.
+/// The live height map. Each cell tracks height and rate of change of the bed (HeightChange) and, as long as
+/// its tile of 32 x 32 cells is still, averages on without end; points are weighed by SensorNoise. One pass
+/// over the points, no separate step.
 ///
 /// Clouds of one stamp are one scan: the map is the same, to the bit, however the scan is cut into clouds, in
 /// which order its points come and how many threads (oneTBB's) work on it. A cloud that is late by less than

@@ -48,7 +48,7 @@ void FusionTile::prefetch(const TileLayers& layers) {
         __builtin_prefetch(layer + row * layers.window.stride + column, 1);
 }
 
-void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, BedSteps& steps) {
+void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, HeightSteps& steps) {
   if (scan == scan_) return;
   take_set_aside(rules);
   judge_motion(
@@ -199,7 +199,7 @@ void FusionTile::begin_cell(std::size_t at, const CellEstimate& known) {
   refusals_[at] = 0;
 }
 
-void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, BedSteps& steps) {
+void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {
   open(scan_ + 1, end, rules, steps);
   scan_ = 0;
   time_ = 0;

@@ -49,7 +49,7 @@ class FusionTile {
   /// Lets the processor fetch what publish() writes: rows of a large map, which it does not foresee.
   static void prefetch(const TileLayers& layers);
   /// Makes `scan` (at `time` [ms]) the open one, after taking in the one before.
-  void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, BedSteps& steps);
+  void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, HeightSteps& steps);
   /// Adds samples to the open scan; how many agree with what is known.
   std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules);
   struct Result {
@@ -62,7 +62,7 @@ class FusionTile {
   /// Begins a cell from a known map at time zero; no scan may be open.
   void begin_cell(std::size_t cell, const CellEstimate& known);
   /// Moves on to the time `end`, which then is zero: the clock jumped back.
-  void restart_clock(std::uint32_t end, const FusionRules& rules, BedSteps& steps);
+  void restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps);
   /// Writes the number of points on which each known cell rests, the open scan included; rows `stride` apart.
   void write_counts(const FusionRules& rules, float* counts, std::size_t stride) const;
 

@@ -8,7 +8,7 @@
 ///
 /// The way of a point into the map: `point_locator` (place and noise: `sensor_noise`), `sample_buckets` (by
 /// tile), `fusion_tile` (does it agree with its cell? else `lower_surface`), `tile_filter` (two Kalman
-/// filters a cell, under `bed_change`). `fixed_point` says why the result does not depend on order or
+/// filters a cell, under `height_change`). `fixed_point` says why the result does not depend on order or
 /// threads.
 
 #include "aeolian_core/measure/fusion.hpp"

@@ -82,7 +82,7 @@ AEOLIAN_KERNEL TileMotion close_scan(TileFilter& f, bool still, float weight_sca
   return {moving_cells, rates, drifts};
 }
 
-AEOLIAN_KERNEL void predict(TileFilter& f, const BedStep& bed) {
+AEOLIAN_KERNEL void predict(TileFilter& f, const HeightStep& bed) {
   const auto l = static_cast<float>(bed.height_per_rate);
   const auto k = static_cast<float>(bed.rate_kept);
   const auto q00 = static_cast<float>(bed.height_variance);

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "aeolian_core/measure/bed_change.hpp"
 #include "aeolian_core/measure/fixed_point.hpp"
+#include "aeolian_core/measure/height_change.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
 namespace aeolian {
@@ -12,7 +12,7 @@ namespace aeolian {
 /// The filters of 32 x 32 cells, an array for each number: two Kalman filters a cell as predicted for the
 /// open scan, and the sums of the scan's points, from which the estimate follows.
 ///
-/// The first filter tracks height and rate under BedChange. The second takes the bed to be still: its
+/// The first filter tracks height and rate under HeightChange. The second takes the bed to be still: its
 /// variance falls as long as nothing moves. Which of them speaks, the tile decides.
 struct TileFilter {
   static constexpr int side = TileMask::tile_cells;
@@ -42,7 +42,7 @@ struct TileMotion {
 TileMotion close_scan(TileFilter& filter, bool still, float weight_scale, float known_rate_variance);
 
 /// Moves both filters on in time.
-void predict(TileFilter& filter, const BedStep& step);
+void predict(TileFilter& filter, const HeightStep& step);
 
 /// What the cells say of the bed, the open scan's points included.
 struct TileEstimate {

@@ -158,7 +158,7 @@ TEST(Fusion, KeepsTheMapWhenTheClockJumpsBack) {
 
   // Four seconds later by the new clock: what the bed may have done in these is in the prediction.
   fusion.add(world.at(0.011), world.pose, 14);
-  const BedStep step = bed_step(p.change, 4);
+  const HeightStep step = height_step(p.change, 4);
   const double rate_variance = p.change.rate_sigma * p.change.rate_sigma;
   const double predicted = static_cast<double>(variance) + step.height_variance +
                            step.height_per_rate * step.height_per_rate * rate_variance;

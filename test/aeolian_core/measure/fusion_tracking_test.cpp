@@ -42,7 +42,7 @@ Following follow(const Scene& run) {
   const GridGeometry g(0, 0, 0.002, 100, 64);
   FusionParameters p;
   p.sensor.range_sigma = run.sigma;
-  p.change = BedChange::of_ripples(celerity, wavelength, 2 * amplitude);
+  p.change = HeightChange::of_ripples(celerity, wavelength, 2 * amplitude);
   HeightFusion fusion(g, p);
   const Eigen::Isometry3d pose = looking_down(0.1, 0.064, 50);
   Following result;

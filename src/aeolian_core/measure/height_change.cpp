@@ -1,4 +1,4 @@
-#include "aeolian_core/measure/bed_change.hpp"
+#include "aeolian_core/measure/height_change.hpp"
 
 #include <cmath>
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace aeolian {
 
-BedChange BedChange::of_ripples(double celerity, double wavelength, double height) {
+HeightChange HeightChange::of_ripples(double celerity, double wavelength, double height) {
   for (const double value : {celerity, wavelength, height})
     if (!(value > 0 && std::isfinite(value)))
-      throw Error("bed change: celerity, wavelength and height of the ripples are " +
+      throw Error("height change: celerity, wavelength and height of the ripples are " +
                   std::to_string(celerity) + ", " + std::to_string(wavelength) + " and " +
                   std::to_string(height) + ", must be positive");
   const double frequency = 2 * M_PI * celerity / wavelength;
@@ -19,12 +19,12 @@ BedChange BedChange::of_ripples(double celerity, double wavelength, double heigh
 
 // The moments of an integrated Ornstein-Uhlenbeck process over x = seconds / rate_time; where they would
 // cancel, their series.
-BedStep bed_step(const BedChange& change, double seconds) {
+HeightStep height_step(const HeightChange& change, double seconds) {
   const double tau = change.rate_time;
   const double x = seconds / tau;
   const double s2 = change.rate_sigma * change.rate_sigma;
   const double lost = -std::expm1(-x);
-  BedStep step;
+  HeightStep step;
   step.rate_kept = 1 - lost;
   step.height_per_rate = tau * lost;
   step.rate_variance = -s2 * std::expm1(-2 * x);

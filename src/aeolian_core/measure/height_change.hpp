@@ -8,7 +8,7 @@ namespace aeolian {
 /// How a bed moves between clouds: its height changes at a rate that wanders about zero with standard
 /// deviation `rate_sigma` and keeps its sign for about `rate_time` (an integrated Ornstein-Uhlenbeck process,
 /// the damped "Singer" model of tracking: R. A. Singer 1970, IEEE Trans. Aerosp. Electron. Syst. 6, 473-483).
-struct BedChange {
+struct HeightChange {
   double rate_sigma = 5.6e-5;  ///< [m/s]
   double rate_time = 67;       ///< [s]
 
@@ -16,11 +16,11 @@ struct BedChange {
   /// point of the bed then rises and sinks at the angular frequency w = 2 pi celerity / wavelength, so that
   /// rate_sigma = w height / sqrt(8). rate_time = 2.1 / w is where the stated variance of a tracked sinusoid
   /// equals its mean square error (lag plus noise) at the gains of one to ten readings a cell and second.
-  static BedChange of_ripples(double celerity, double wavelength, double height);
+  static HeightChange of_ripples(double celerity, double wavelength, double height);
 };
 
 /// The step of that process over a time.
-struct BedStep {
+struct HeightStep {
   double height_per_rate = 0;  ///< expected change of height for a unit of rate [s]
   double rate_kept = 1;        ///< expected rate for a unit of rate
   double height_variance = 0;  ///< added by the process [m^2]
@@ -28,17 +28,17 @@ struct BedStep {
   double rate_variance = 0;    ///< [m^2/s^2]
 };
 
-BedStep bed_step(const BedChange& change, double seconds);
+HeightStep height_step(const HeightChange& change, double seconds);
 
 /// The steps of the times that clouds lie apart, in whole milliseconds: a few, asked for very often.
-class BedSteps {
+class HeightSteps {
  public:
-  explicit BedSteps(const BedChange& change) : change_(change), steps_(slots) {}
+  explicit HeightSteps(const HeightChange& change) : change_(change), steps_(slots) {}
 
-  const BedStep& after(std::uint32_t milliseconds) {
+  const HeightStep& after(std::uint32_t milliseconds) {
     Slot& slot = steps_[(milliseconds * 2654435769U) >> (32 - bits)];
     if (!slot.used || slot.milliseconds != milliseconds)
-      slot = {bed_step(change_, 1e-3 * milliseconds), milliseconds, true};
+      slot = {height_step(change_, 1e-3 * milliseconds), milliseconds, true};
     return slot.step;
   }
 
@@ -46,11 +46,11 @@ class BedSteps {
   static constexpr int bits = 6;
   static constexpr std::size_t slots = std::size_t{1} << bits;
   struct Slot {
-    BedStep step;
+    HeightStep step;
     std::uint32_t milliseconds = 0;
     bool used = false;
   };
-  BedChange change_;
+  HeightChange change_;
   std::vector<Slot> steps_;
 };
 
