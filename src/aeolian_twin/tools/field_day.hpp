@@ -7,7 +7,7 @@
 #include "aeolian_core/bedforms/bedforms.hpp"
 #include "aeolian_core/measure/measure.hpp"
 #include "aeolian_core/wind/wind.hpp"
-#include "aeolian_twin/tools/yaml_section.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 

@@ -12,7 +12,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_twin/tools/yaml_section.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 

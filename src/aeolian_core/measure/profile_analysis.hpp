@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aeolian_core/measure/shadow_profile.hpp"
+
+namespace aeolian {
+
+/// A profile sampled at a constant step along the horizontal, for the analysis.
+struct EvenProfile {
+  double start = 0;             ///< position of the first sample [m]
+  double step = 0;              ///< [m]
+  std::vector<double> z;        ///< [m]
+  std::vector<double> sigma_z;  ///< [m]
+};
+
+/// Tombrello's value-weighted filter (Werner 1987, eq. 5.1): each value becomes the mean of its neighbours
+/// up to `reach` samples away, weighted by exp(-(difference)^2 / 2 sigma^2). Keeps breaks of many sigma.
+std::vector<double> value_weighted_smoothing(const std::vector<double>& values, double sigma, int reach = 5);
+
+/// The profile on an even grid of the given step by four-point Lagrange interpolation, the longest stretch
+/// without a gap wider than `max_gap`; distances are horizontal (the straightedge's inclination is taken
+/// out). Throws Error when nothing of at least eight samples is left.
+EvenProfile resample(const ShadowProfile& profile, double step, double max_gap);
+
+/// The line of best fit taken out; its slope goes to `slope` when asked.
+std::vector<double> detrended(const EvenProfile& profile, double* slope = nullptr);
+
+/// One ripple, between the two troughs that its common tangent touches; measured from that tangent.
+struct ProfileRipple {
+  double start = 0;  ///< positions of its troughs and of its crest along the profile [m]
+  double crest = 0;
+  double end = 0;
+  Figure wavelength;  ///< along the tangent [m]
+  Figure height;      ///< of the crest over the tangent, normal to it [m]
+  Figure index;       ///< wavelength / height
+  Figure stoss_mean;  ///< slopes to the tangent, positive [rad]: mean from trough to crest ...
+  Figure stoss_max;   ///< ... and the steepest over a stretch of a tenth of the wavelength
+  Figure lee_mean;
+  Figure lee_max;
+  Figure apparent_dip;  ///< of the tangent against the horizontal, positive downslope along the wind [rad]
+};
+
+/// Everything that is reported of one profile.
+struct ProfileAnalysis {
+  EvenProfile even;  ///< smoothed as the thesis does for still beds
+  std::vector<ProfileRipple> ripples;
+  bool downwind_known = false;  ///< otherwise the steeper flank is taken as the lee
+  double downwind = 1;          ///< +1: the wind blows to larger x
+  Figure wavelength;            ///< means over the ripples, NaN when there are none
+  Figure height;
+  Figure index;
+  Figure stoss_mean, stoss_max, lee_mean, lee_max;
+  Figure apparent_dip;
+  Figure roughness;                  ///< rms of the detrended heights [m]
+  std::vector<double> lag;           ///< [m]
+  std::vector<double> length_scale;  ///< distribution over `lag` (eq. 5.2), mean 1
+  Figure dominant_length;  ///< first maximum of it after its first minimum [m], NaN when there is none
+  std::vector<double> wavenumber;  ///< cycles [1/m]
+  std::vector<double> power;       ///< one-sided density [m^3]; its integral is the variance
+  Figure spectral_wavelength;      ///< at the highest peak [m]
+};
+
+ProfileAnalysis analyse(const ShadowProfile& profile);
+
+/// What a series of profiles of one section says, photographs in time order.
+struct ProfileSeries {
+  struct Step {
+    double time = 0;   ///< middle of the two photographs [s, from the first]
+    Figure migration;  ///< downwind speed of the pattern [m/s]
+    Figure growth;     ///< of the ripple height [m/s]
+  };
+  struct Event {
+    enum class Kind { merger, split, birth, loss } kind;
+    double time = 0;      ///< [s]
+    double position = 0;  ///< of the crest [m]
+  };
+  std::vector<Step> steps;
+  std::vector<Event> events;
+  Figure migration;  ///< over the whole series [m/s]
+  Figure growth;     ///< [m/s]
+};
+
+/// Throws Error for fewer than two profiles, times that do not rise, and sections that do not overlap.
+ProfileSeries analyse_series(const std::vector<ProfileAnalysis>& analyses, const std::vector<double>& times);
+
+}  // namespace aeolian
