@@ -65,6 +65,7 @@ struct PhotoSetup {
 /// cannot be (light above 85 or below 3 degrees), no scale or no light in any form, scale marks that
 /// contradict one another by themselves (two x for one pixel, two pixels for one mark, x not monotonic along
 /// a single row).
-PhotoSetup read_photo_setup(const std::string& path);
+/// With the pose of the camera known from elsewhere there need be no scale: `scale_needed` false.
+PhotoSetup read_photo_setup(const std::string& path, bool scale_needed = true);
 
 }  // namespace aeolian

@@ -18,7 +18,7 @@ namespace aeolian {
 
 /// A photo in any format that OpenCV reads, upright as its EXIF data say; grey or colour, 8 or 16 bits.
 /// Throws Error naming the file.
-inline sensor_msgs::Image read_photo(const std::string& path) {
+inline sensor_msgs::Image read_image(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw Error("photo '" + path + "': there is no such file");
   cv::Mat photo;
   try {

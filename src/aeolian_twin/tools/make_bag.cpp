@@ -134,7 +134,7 @@ class BagMaker {
   }
 
   void write_photo(const Manifest::Photo& photo) {
-    sensor_msgs::Image image = read_photo(photo.file);
+    sensor_msgs::Image image = read_image(photo.file);
     sensor_msgs::CameraInfo info = read_camera_info(photo.camera_info);
     if (image.width != info.width || image.height != info.height)
       throw Error(fmt::format("photo '{}': has {} x {} pixels, its camera_info '{}' is for {} x {}",
