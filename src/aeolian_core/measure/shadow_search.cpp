@@ -16,8 +16,11 @@ constexpr int most_columns = 600;
 constexpr int most_rows = 1200;
 constexpr int edge_rows = 2;            // beside the bright bar, not looked at
 constexpr double least_contrast = 1.5;  // sunlit over shaded, linear light
-constexpr double lit_reach = 6e-3;      // so far beyond the border the bed must be sunlit [m]
+constexpr double reach = 6e-3;          // so far on either side of the border the light must be right [m]
+constexpr int least_shadow = 3;         // rows
+constexpr float hidden_cost = 0.4F;
 constexpr float bend_cost = 0.25F;      // of a path that changes by one row, in rows of wrong light
+constexpr double most_clipped = 0.12;    // of the sunlit bed
 constexpr float clipped = 0.985F;       // linear light at which 8 bits are nearly full
 
 /// Linear light over the plane of the top face on one side of the edge: columns along x, rows away from it.
@@ -103,18 +106,23 @@ struct Levels {
   float lit = 0;
 };
 
-/// Typical light of the shadow (the darkest near the edge) and of the bed beyond.
+/// Typical light of the shadow (the darkest stretch of 1.2 mm of each column) and of the bed.
 std::optional<Levels> first_levels(const Grid& grid) {
   std::vector<float> darks;
   std::vector<float> lits;
   std::vector<float> column;
-  const int near = edge_rows + std::max(3, static_cast<int>(5e-3 / grid.row));
+  const int stretch = std::max(3, static_cast<int>(1.2e-3 / grid.row));
   for (int i = 0; i < grid.columns; ++i) {
     const int depth = grid.depth_of(i);
-    if (depth < edge_rows + 8) continue;
+    if (depth < edge_rows + std::max(8, stretch)) continue;
+    float sum = 0;
     float darkest = std::numeric_limits<float>::infinity();
-    for (int j = edge_rows; j + 3 <= std::min(depth, near); ++j)
-      darkest = std::min(darkest, (grid.at(i, j) + grid.at(i, j + 1) + grid.at(i, j + 2)) / 3);
+    for (int j = edge_rows; j < depth; ++j) {
+      sum += grid.at(i, j);
+      if (j < edge_rows + stretch) continue;
+      sum -= grid.at(i, j - stretch);
+      darkest = std::min(darkest, sum / static_cast<float>(stretch));
+    }
     darks.push_back(darkest);
     column.clear();
     for (int j = edge_rows; j < depth; ++j) column.push_back(grid.at(i, j));
@@ -134,7 +142,7 @@ float sunlit(float light, const Levels& levels) {
 std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) {
   const int rows = grid.rows + 1;
   const auto size = static_cast<std::size_t>(rows);
-  const int reach = std::max(12, static_cast<int>(lit_reach / grid.row));
+  const int window = std::max(12, static_cast<int>(reach / grid.row));
   std::vector<float> cost(size, 0);
   std::vector<float> wrong(size);
   std::vector<float> sums(size + 1);
@@ -161,8 +169,13 @@ std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) 
     float least = std::numeric_limits<float>::infinity();
     for (int j = 0; j < rows; ++j) {
       const int begin = std::max(j, edge_rows);
-      const int end = std::min(begin + reach, depth);
-      const float inner = sums[static_cast<std::size_t>(std::min(j, depth))];
+      const int end = std::min(begin + window, depth);
+      const auto sum_to = [&](int row) { return sums[static_cast<std::size_t>(std::clamp(row, 0, depth))]; };
+      // Rows under the bar are half wrong: a shadow may begin there, but the edge itself is no shadow.
+      const int hidden = std::max(0, window - (j - edge_rows));
+      const float inner = sum_to(j) - sum_to(j - window) +
+                          (j < edge_rows + least_shadow ? static_cast<float>(window)
+                                                        : hidden_cost * static_cast<float>(hidden));
       const float outer =
           end > begin ? static_cast<float>(end - begin) -
                             (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(begin)])
@@ -201,13 +214,13 @@ std::vector<Levels> levels_along(const Grid& grid, const std::vector<int>& path,
     own.push_back({mean_light(grid, i, end - 1 - zone, end - 1).value_or(typical.dark),
                    mean_light(grid, i, end + 1, end + 1 + zone).value_or(typical.lit)});
   }
-  const int reach = std::max(5, grid.columns / 12);
+  const int columns = std::max(5, grid.columns / 12);
   std::vector<Levels> result;
   std::vector<float> window;
   for (int i = 0; i < grid.columns; ++i) {
     Levels level;
-    const int begin = std::max(0, i - reach);
-    const int end = std::min(grid.columns, i + reach + 1);
+    const int begin = std::max(0, i - columns);
+    const int end = std::min(grid.columns, i + columns + 1);
     window.clear();
     for (int k = begin; k < end; ++k) window.push_back(own[static_cast<std::size_t>(k)].dark);
     level.dark = quantile_of(window, 0.5);
@@ -269,7 +282,7 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   levels = levels_along(grid, path, *typical);
   path = best_path(grid, levels);
   const Verdict verdict = judge(grid, path, levels, side);
-  if (verdict.clipped > 0.05)
+  if (verdict.clipped > most_clipped)
     throw Error(fmt::format("over-exposed: {:.0f} % of the sunlit bed beside the shadow is white", 100 * verdict.clipped));
   if (verdict.off_photo > grid.columns / 2)
     throw Error("the far border of the shadow is outside the photo");
