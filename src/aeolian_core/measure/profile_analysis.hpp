@@ -17,7 +17,9 @@ struct EvenProfile {
 };
 
 /// Tombrello's value-weighted filter (Werner 1987, eq. 5.1): each value becomes the mean of its neighbours
-/// up to `reach` samples away, weighted by exp(-(difference)^2 / 2 sigma^2). Keeps breaks of many sigma.
+/// up to `reach` samples away, weighted by exp(-(difference)^2 / 2 sigma^2). Keeps breaks of many sigma. Near
+/// the ends the reach shrinks to what both sides have, so that a slope stays. Sigma 0 changes nothing. Throws
+/// Error when sigma or reach is negative.
 std::vector<double> value_weighted_smoothing(const std::vector<double>& values, double sigma, int reach = 5);
 
 /// The profile on an even grid of the given step by four-point Lagrange interpolation, the longest stretch
@@ -47,6 +49,7 @@ struct ProfileRipple {
 struct ProfileAnalysis {
   EvenProfile even;  ///< smoothed as the thesis does for still beds
   std::vector<ProfileRipple> ripples;
+  std::vector<double> crests;   ///< all that stand out, also of ripples cut off by the profile's ends [m]
   bool downwind_known = false;  ///< otherwise the steeper flank is taken as the lee
   double downwind = 1;          ///< +1: the wind blows to larger x
   Figure wavelength;            ///< means over the ripples, NaN when there are none
@@ -63,6 +66,20 @@ struct ProfileAnalysis {
   Figure spectral_wavelength;      ///< at the highest peak [m]
 };
 
+/// Analyses a profile as the thesis does (sections 2.3 and 2.4 of Werner 1987, ch. V), in this order:
+/// resampling to a grain (or the spacing of the stations where that is wider), value-weighted smoothing with
+/// sigma = one grain (twice the noise where the grain is not known) and a reach of five samples (less than a
+/// thirtieth of the dominant length), crests, a common tangent for each ripple. A crest counts when it stands
+/// out by three standard errors of the heights, by one grain, and by 15 % of the typical relief. Ripples cut
+/// off by the ends are left out.
+///
+/// Standard errors are those of the measurement: the scatter of the figures over 64 copies of the profile with
+/// new noise (sigma_z or the roughness seen between neighbours, whichever is larger, correlated over two
+/// grains) and new common errors of heights and lengths. What the procedure does to the copies in the mean
+/// (smoothing lowers crests, noise steepens slopes) is taken off the figures of ripples and the roughness. The
+/// scatter from ripple to ripple is no error and is not in it.
+///
+/// A bed without ripples has NaN figures. Throws Error when fewer than eight samples are left.
 ProfileAnalysis analyse(const ShadowProfile& profile);
 
 /// What a series of profiles of one section says, photographs in time order.

@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <geometry_msgs/TwistStamped.h>
-#include <opencv2/core/utils/logger.hpp>
 #include <rosbag/bag.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
@@ -21,6 +20,7 @@
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/tools/file_messages.hpp"
 #include "aeolian_twin/tools/manifest.hpp"
+#include "aeolian_twin/tools/program.hpp"
 #include "aeolian_twin/tools/static_frames.hpp"
 
 namespace aeolian {
@@ -230,24 +230,13 @@ int run(int argc, char** argv) {
   std::string bag;
   app.add_option("MANIFEST", manifest, "YAML file that lists the files")->required();
   app.add_option("BAG", bag, "bag to write")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
-  fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
-  return 0;
+  return run_program("make_bag", app, argc, argv, [&] {
+    fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) {
-  try {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    return aeolian::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_bag: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return aeolian::run(argc, argv); }

@@ -17,6 +17,7 @@
 #include "aeolian_core/surface/surface.hpp"
 #include "aeolian_twin/tools/field_bag.hpp"
 #include "aeolian_twin/tools/field_day.hpp"
+#include "aeolian_twin/tools/program.hpp"
 
 namespace aeolian {
 namespace {
@@ -231,26 +232,16 @@ int run(int argc, char** argv) {
   const auto* seed_option = app.add_option("--seed", seed, "decides everything random; overrides the file's");
   const auto* minutes_option = app.add_option("--minutes", minutes, "length of the day; overrides the file's")
                                    ->check(CLI::Range(0.001, 1e4));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 1;
-  }
-  FieldDay day = read_field_day(config);
-  if (seed_option->count() > 0) day.seed = seed;
-  if (minutes_option->count() > 0) day.duration = 60 * minutes;
-  simulate(day, directory);
-  return 0;
+  return run_program("simulate_field", app, argc, argv, [&] {
+    FieldDay day = read_field_day(config);
+    if (seed_option->count() > 0) day.seed = seed;
+    if (minutes_option->count() > 0) day.duration = 60 * minutes;
+    simulate(day, directory);
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) {
-  try {
-    return aeolian::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "simulate_field: %s\n", e.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return aeolian::run(argc, argv); }
