@@ -20,6 +20,7 @@ namespace aeolian {
 
 namespace {
 
+constexpr int edge_samples = 16;        // of a pixel that a border may cross
 constexpr double least_descent = 0.05;  // of a ray that reaches the bed, per length; flatter ones see none
 
 struct Light {
@@ -43,6 +44,15 @@ class Caster {
     Eigen::Vector3d ray;     // level frame
     Eigen::Vector3d across;  // change of the ray from pixel to pixel
     Eigen::Vector3d down;
+
+    /// One of `edge_samples` rays: stratified over the pixel, and no two of them in line with its sides, so
+    /// that a border along rows or columns is placed as well as any other.
+    Eigen::Vector3d sample(int i) const {
+      const int column = i % 4;
+      const int row = i / 4;
+      return ray + ((column + (row + 0.5) / 4) / 4 - 0.5) * across +
+             ((row + (column + 0.5) / 4) / 4 - 0.5) * down;
+    }
   };
 
   void cast_row(int row, float* out) const;
@@ -251,13 +261,18 @@ double Caster::bed_light(const Pixel& pixel, const Hit& hit) const {
       at_border = true;
     }
   }
-  if (!at_border && pixel_size < 0.4 * scene_.grain_diameter) {
-    return grain_light(pixel.ray, hit, sky, direct, false);
+  if (at_border) {
+    double sum = 0;
+    for (int sample = 0; sample < edge_samples; ++sample) {
+      sum += grain_light(pixel.sample(sample), hit, sky, direct, true);
+    }
+    return sum / edge_samples;
   }
+  if (pixel_size < 0.4 * scene_.grain_diameter) return grain_light(pixel.ray, hit, sky, direct, false);
   double sum = 0;
   for (const double right : {-0.25, 0.25}) {
     for (const double below : {-0.25, 0.25}) {
-      sum += grain_light(pixel.ray + right * pixel.across + below * pixel.down, hit, sky, direct, at_border);
+      sum += grain_light(pixel.ray + right * pixel.across + below * pixel.down, hit, sky, direct, false);
     }
   }
   return sum / 4;
@@ -287,10 +302,8 @@ void Caster::cast_row(int row, float* out) const {
     double light = 0;
     const bool near_post = scene_.post_height && nears_post(pixel.ray, footprint);
     if (meets_box(eye_straightedge_, ray_straightedge, footprint, &distance, &face) || near_post) {
-      constexpr int fine = 4;
-      for (int sample = 0; sample < fine * fine; ++sample) {
-        const Eigen::Vector3d ray = pixel.ray + ((sample % fine + 0.5) / fine - 0.5) * pixel.across +
-                                    ((sample / fine + 0.5) / fine - 0.5) * pixel.down;
+      for (int sample = 0; sample < edge_samples; ++sample) {
+        const Eigen::Vector3d ray = pixel.sample(sample);
         double sampled = 0;
         const Eigen::Vector3d turned = to_straightedge_ * ray;
         if (meets_post(ray, &sampled)) {
@@ -303,7 +316,7 @@ void Caster::cast_row(int row, float* out) const {
           light += grain_light(ray, hit, sky, unused, true);
         }
       }
-      light /= fine * fine;
+      light /= edge_samples;
     } else {
       light = sees_bed ? bed_light(pixel, hit) : 1.0;
     }
