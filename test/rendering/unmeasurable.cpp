@@ -5,8 +5,6 @@
 
 #include "grain_texture.hpp"
 #include "image_formation.hpp"
-#include "lens.hpp"
-#include "scene_frames.hpp"
 #include <opencv2/imgproc.hpp>
 
 namespace aeolian {
@@ -45,18 +43,17 @@ void shake(cv::Mat* picture, int length, double angle) {
                cv::BORDER_REPLICATE);
 }
 
-/// Darkens a soft-edged polygon as a shadow or a dark thing would.
-void darken(cv::Mat* picture, const std::vector<cv::Point>& outline, double factor, double softness) {
+/// Takes the direct light away inside a soft-edged outline, as the shadow of something out of frame does.
+void shade(cv::Mat* picture, const ShadowScene& scene, const std::vector<cv::Point>& outline) {
+  ShadowScene shaded = scene;
+  shaded.skylight = 0.999;
+  shaded.exposure *= scene.skylight;
+  Photo dark = photograph(shaded);
+  const cv::Mat without_sun(dark.height_px, dark.width_px, CV_8U, dark.values8.data());
   cv::Mat mask = cv::Mat::zeros(picture->size(), CV_32F);
   cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{outline}, 1);
-  cv::GaussianBlur(mask, mask, {}, softness);
-  const double encoded = std::pow(factor, 1 / 2.2);
-  for (int row = 0; row < picture->rows; ++row) {
-    for (int column = 0; column < picture->cols; ++column) {
-      std::uint8_t& value = picture->at<std::uint8_t>(row, column);
-      value = cv::saturate_cast<std::uint8_t>(value * (1 - (1 - encoded) * mask.at<float>(row, column)));
-    }
-  }
+  cv::GaussianBlur(mask, mask, {}, 6);
+  cv::blendLinear(without_sun, picture->clone(), mask, 1 - mask, *picture);
 }
 
 cv::Point seen(const ShadowScene& scene, const Eigen::Vector3d& point) {
@@ -64,21 +61,17 @@ cv::Point seen(const ShadowScene& scene, const Eigen::Vector3d& point) {
   return {static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y()))};
 }
 
-/// The bed around the far border along all of the section, from `before` to `beyond` it (in y, m).
+/// A straight-sided patch of bed along the section, from `before` to `beyond` its far border (in y, m).
 std::vector<cv::Point> around_border(const SetUp& set_up, double before, double beyond) {
   const ShadowScene& scene = set_up.scene;
-  std::vector<cv::Point> outline;
-  constexpr int stations = 40;
-  for (int side = 0; side < 2; ++side) {
-    for (int i = 0; i <= stations; ++i) {
-      const double share = side == 0 ? 1.0 * i / stations : 1 - 1.0 * i / stations;
-      const double x = set_up.from + (1.3 * share - 0.15) * (set_up.to - set_up.from);
-      Eigen::Vector3d point = true_bed_point(scene, x);
-      point.y() += scene.shadow_side * (side == 0 ? -before : beyond);
-      outline.push_back(seen(scene, point));
-    }
-  }
-  return outline;
+  const double inset = 0.02 * (set_up.to - set_up.from);
+  const Eigen::Vector3d left = true_bed_point(scene, set_up.from + inset);
+  const Eigen::Vector3d right = true_bed_point(scene, set_up.to - inset);
+  const Eigen::Vector3d along = 0.2 * (right - left);
+  const Eigen::Vector3d in{0, -scene.shadow_side * before, 0};
+  const Eigen::Vector3d out{0, scene.shadow_side * beyond, 0};
+  return {seen(scene, left - along + in), seen(scene, right + along + in), seen(scene, right + along + out),
+          seen(scene, left - along + out)};
 }
 
 /// Moves the picture's contents so that the camera looks elsewhere: along y of the level frame [m].
@@ -182,13 +175,13 @@ void add_camera_faults(Collection* all) {
 void add_scene_faults(Collection* all) {
   for (int i = 0; i < 4; ++i) {
     all->add_spoilt("a person's shadow over the border", "shadow", [](const SetUp& set_up) -> Spoil {
-      const std::vector<cv::Point> outline = around_border(set_up, 0.2, 0.2);
-      return [outline](cv::Mat* picture) { darken(picture, outline, 0.2, 6); };
+      const std::vector<cv::Point> outline = around_border(set_up, 0.025, 0.025);
+      return [outline, scene = set_up.scene](cv::Mat* picture) { shade(picture, scene, outline); };
     });
   }
   for (int i = 0; i < 3; ++i) {
     all->add_spoilt("border on a dark thing", "shadow", [](const SetUp& set_up) -> Spoil {
-      const std::vector<cv::Point> outline = around_border(set_up, 0.15, 0.03);
+      const std::vector<cv::Point> outline = around_border(set_up, 0.008, 0.012);
       return [outline](cv::Mat* picture) {
         cv::fillPoly(*picture, std::vector<std::vector<cv::Point>>{outline}, 25);
       };
