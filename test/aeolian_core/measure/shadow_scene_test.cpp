@@ -346,7 +346,7 @@ TEST(RandomSetUp, KeepsWhatItPromises) {
 
 TEST(RandomSetUp, ShowsTheTrueBorderOnItsPhoto) {
   for (const std::uint64_t seed : {1, 4, 8}) {
-    auto set_up = random_set_up(seed, 1.5);
+    auto set_up = random_set_up(seed, 0.8);
     ShadowScene& scene = set_up.scene;
     scene.albedo_contrast = scene.roughness = scene.noise = 0;
     scene.vignetting = scene.uneven_light = 0;
