@@ -24,8 +24,8 @@ Distorted distort(const std::array<double, 8>& d, const Eigen::Vector2d& p) {
   const double above = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
   const double below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
   const double radial = above / below;
-  const double radial_slope = (k1 + r2 * (2 * k2 + r2 * 3 * k3) -
-                               radial * (k4 + r2 * (2 * k5 + r2 * 3 * k6))) / below;  // by r^2
+  const double radial_slope =
+      (k1 + r2 * (2 * k2 + r2 * 3 * k3) - radial * (k4 + r2 * (2 * k5 + r2 * 3 * k6))) / below;  // by r^2
   Distorted result;
   result.point = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
                   y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
@@ -57,8 +57,8 @@ Eigen::Vector3d CameraModel::ray(const Eigen::Vector2d& pixel) const {
     if (length > 0.25) step *= 0.25 / length;
     p += step;
   }
-  throw Error(fmt::format("the lens distortion cannot be undone at pixel ({:.1f}, {:.1f})", pixel.x(),
-                          pixel.y()));
+  throw Error(
+      fmt::format("the lens distortion cannot be undone at pixel ({:.1f}, {:.1f})", pixel.x(), pixel.y()));
 }
 
 }  // namespace aeolian

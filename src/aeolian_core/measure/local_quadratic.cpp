@@ -10,7 +10,8 @@ namespace aeolian {
 namespace {
 
 /// One pass with given robust weights.
-void pass(const std::vector<double>& x, const std::vector<double>& y, double half_width, LocalQuadratic& result) {
+void pass(const std::vector<double>& x, const std::vector<double>& y, double half_width,
+          LocalQuadratic& result) {
   const std::size_t n = x.size();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::size_t begin = 0;
@@ -53,7 +54,8 @@ void pass(const std::vector<double>& x, const std::vector<double>& y, double hal
 
 }  // namespace
 
-LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<double>& y, double half_width) {
+LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<double>& y,
+                               double half_width) {
   const std::size_t n = x.size();
   LocalQuadratic result;
   result.fit.resize(n);
@@ -73,7 +75,8 @@ LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<d
     std::nth_element(misses.begin(), middle, misses.end());
     const double limit = 6 * *middle;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = std::isnan(result.fit[i]) || std::isnan(y[i]) || limit == 0 ? 0 : (y[i] - result.fit[i]) / limit;
+      const double t =
+          std::isnan(result.fit[i]) || std::isnan(y[i]) || limit == 0 ? 0 : (y[i] - result.fit[i]) / limit;
       result.robust_weight[i] = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
     }
   }

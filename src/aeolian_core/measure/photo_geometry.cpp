@@ -16,9 +16,7 @@ Eigen::Vector3d Light::direction() const {
           -std::sin(elevation)};
 }
 
-Eigen::Vector3d PhotoGeometry::edge() const {
-  return {std::cos(inclination_), 0, std::sin(inclination_)};
-}
+Eigen::Vector3d PhotoGeometry::edge() const { return {std::cos(inclination_), 0, std::sin(inclination_)}; }
 
 FullGeometry::FullGeometry(CameraPose pose, double inclination)
     : PhotoGeometry(inclination), pose_(std::move(pose)) {

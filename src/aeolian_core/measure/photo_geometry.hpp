@@ -72,7 +72,8 @@ class OverheadGeometry : public PhotoGeometry {
  public:
   /// `origin` is the pixel of scale zero on the casting edge, `along` a unit vector on the photo towards
   /// larger x, `scale` in pixels per metre.
-  OverheadGeometry(const Eigen::Vector2d& origin, const Eigen::Vector2d& along, double scale, double inclination);
+  OverheadGeometry(const Eigen::Vector2d& origin, const Eigen::Vector2d& along, double scale,
+                   double inclination);
 
   Eigen::Vector2d pixel(double x, double y) const override;
   Eigen::Vector2d top_face(const Eigen::Vector2d& pixel) const override;

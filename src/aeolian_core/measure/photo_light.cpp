@@ -27,9 +27,10 @@ const Light& checked(const Light& light, const char* source) {
     throw Error(fmt::format("light: {} gives an elevation of {:.1f} degrees, must be from 3 to 85", source,
                             light.elevation / degree));
   if (!(std::abs(light.azimuth) < 80 * degree))
-    throw Error(fmt::format("light: {} gives an azimuth of {:.0f} degrees from the edge's normal towards the shadow, must be "
-                            "within 80",
-                            source, light.azimuth / degree));
+    throw Error(fmt::format(
+        "light: {} gives an azimuth of {:.0f} degrees from the edge's normal towards the shadow, must be "
+        "within 80",
+        source, light.azimuth / degree));
   return light;
 }
 
@@ -45,7 +46,8 @@ Light along(const Eigen::Vector3d& travel, int side) {
 Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, const PhotoLight& source) {
   const SunPosition position = sun_position(sun.unix_time, sun.latitude, sun.longitude);
   const Eigen::Vector2d step = sun.north_px.normalized();
-  const Eigen::Vector3d north = geometry.at_level(source.middle_px + step, 0) - geometry.at_level(source.middle_px - step, 0);
+  const Eigen::Vector3d north =
+      geometry.at_level(source.middle_px + step, 0) - geometry.at_level(source.middle_px - step, 0);
   // Clockwise from north is the negative sense of the level frame.
   const double travel = std::atan2(north.y(), north.x()) - (position.azimuth + M_PI);
   const double c = std::cos(position.elevation);
@@ -53,9 +55,10 @@ Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, const 
 }
 
 /// Height of the bed at x [m] after the shadow's end, under a light.
-double bed_height(const PhotoGeometry& geometry, const Light& light, const std::vector<Eigen::Vector2d>& terminus,
-                  double x) {
-  // The pixels stand in the order of x: the place is found by bisection, the height as a mean of its surroundings.
+double bed_height(const PhotoGeometry& geometry, const Light& light,
+                  const std::vector<Eigen::Vector2d>& terminus, double x) {
+  // The pixels stand in the order of x: the place is found by bisection, the height as a mean of its
+  // surroundings.
   std::size_t low = 0;
   std::size_t high = terminus.size();
   while (high - low > 1) {
@@ -66,7 +69,8 @@ double bed_height(const PhotoGeometry& geometry, const Light& light, const std::
   const std::size_t end = std::min(terminus.size(), low + 6);
   std::vector<double> heights;
   for (std::size_t i = begin; i < end; ++i) heights.push_back(geometry.bed_point(terminus[i], light).z());
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
+  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
+                   heights.end());
   return heights[heights.size() / 2];
 }
 
@@ -89,7 +93,8 @@ Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, con
   while (high > deepest && !(excess(high - step) > 0)) high -= step;
   double low = high - step;
   if (!(excess(low) > 0 && excess(high) <= 0))
-    throw Error("light.post: the shadow of its tip does not lie beyond the straightedge's shadow, in its light");
+    throw Error(
+        "light.post: the shadow of its tip does not lie beyond the straightedge's shadow, in its light");
   while (high - low > 1e-7) {
     const double middle = (low + high) / 2;
     (excess(middle) > 0 ? low : high) = middle;
@@ -115,7 +120,8 @@ double tip_height_sigma(const PhotoSetup::Post& post, const PhotoGeometry& geome
   double squares = 0;
   constexpr int samples = 21;
   for (int i = 0; i < samples; ++i) {
-    const double z = bed_height(geometry, light, source.terminus, tip.x() + way * std::tan(crest_turn) * (i - 10) / 10);
+    const double z =
+        bed_height(geometry, light, source.terminus, tip.x() + way * std::tan(crest_turn) * (i - 10) / 10);
     sum += z / samples;
     squares += z * z / samples;
   }

@@ -33,9 +33,10 @@ struct LightDoubt {
 Light find_light(const PhotoSetup& setup, const PhotoGeometry& geometry, const PhotoLight& source,
                  const LightDoubt& doubt = {});
 
-/// What is to be doubted of a setup's light, each by one standard error: given angles are good to 0.1 degrees,
-/// the sun's elevation to 0.02 and a drawn north to 0.5 degrees, a post's pixels to 0.3 px, and the bed under
-/// its tip's shadow to what the section varies within 10 degrees of straight across, at least 1 % of the way.
+/// What is to be doubted of a setup's light, each by one standard error: given angles are good to 0.1
+/// degrees, the sun's elevation to 0.02 and a drawn north to 0.5 degrees, a post's pixels to 0.3 px, and the
+/// bed under its tip's shadow to what the section varies within 10 degrees of straight across, at least 1 %
+/// of the way.
 std::vector<LightDoubt> light_doubts(const PhotoSetup& setup, const PhotoGeometry& geometry,
                                      const PhotoLight& source, const Light& light);
 

@@ -13,8 +13,8 @@
 namespace aeolian {
 namespace {
 
-constexpr double pixel_sigma = 0.1;  // what careful marks reach [px]
-constexpr double gross_px = 3;       // no careful mark is so far off [px]
+constexpr double pixel_sigma = 0.02;  // what marks reach at best [px]
+constexpr double gross_px = 3;        // no careful mark is so far off [px]
 
 using Parameters = Eigen::Matrix<double, 7, 1>;
 using Normal = Eigen::Matrix<double, 7, 7>;
@@ -149,9 +149,7 @@ std::vector<CameraPose> starts(const std::vector<PlanePoint>& points, const Came
   return result;
 }
 
-bool from_above(const CameraPose& pose) {
-  return pose.to_camera.inverse().translation().z() > 0;
-}
+bool from_above(const CameraPose& pose) { return pose.to_camera.inverse().translation().z() > 0; }
 
 void require_spread(const std::vector<PlanePoint>& points) {
   if (points.size() < 4)
@@ -162,21 +160,26 @@ void require_spread(const std::vector<PlanePoint>& points) {
   for (const auto& point : points) spread += (point.position - mean) * (point.position - mean).transpose();
   const Eigen::Vector2d squares = spread.selfadjointView<Eigen::Lower>().eigenvalues();
   if (squares[0] < 1e-6 * squares[1])
-    throw Error("the marks lie on one line, which does not fix a tilted camera: give markers, a second row of "
-                "marks with x and y, or 'camera.plumb: true' for a camera that looks straight down");
+    throw Error(
+        "the marks lie on one line, which does not fix a tilted camera: give markers, a second row of "
+        "marks with x and y, or 'camera.plumb: true' for a camera that looks straight down");
 }
 
-void require_agreement(const Problem& problem, const std::vector<PlanePoint>& points, const CameraPose& pose) {
+void require_agreement(const Problem& problem, const std::vector<PlanePoint>& points,
+                       const CameraPose& pose) {
   std::vector<double> misses;
   for (std::size_t i = 0; i < points.size(); ++i) misses.push_back(problem.miss(pose, i));
   std::vector<double> sorted = misses;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
   const double typical = sorted[sorted.size() / 2];
-  const auto worst = static_cast<std::size_t>(std::max_element(misses.begin(), misses.end()) - misses.begin());
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(misses.begin(), misses.end()) - misses.begin());
   if (typical > gross_px || misses[worst] > std::max(gross_px, 5 * typical))
-    throw Error(fmt::format("scale marks disagree: the mark at pixel ({:.1f}, {:.1f}) is {:.1f} px from where "
-                            "the others put it",
-                            points[worst].pixel.x(), points[worst].pixel.y(), misses[worst]));
+    throw Error(
+        fmt::format("scale marks disagree: the mark at pixel ({:.1f}, {:.1f}) is {:.1f} px from where "
+                    "the others put it",
+                    points[worst].pixel.x(), points[worst].pixel.y(), misses[worst]));
 }
 
 }  // namespace
@@ -221,8 +224,7 @@ CameraPose fit_pose(const std::vector<PlanePoint>& points, const CameraModel& ca
   const double count = static_cast<double>(points.size());
   pose.rms_px = std::sqrt(squares / count);
   const double freedom = 2 * count - (prior.relative_sigma > 0 ? 7 : 6);
-  const double excess =
-      freedom > 0 ? std::max(1.0, squares / freedom / (pixel_sigma * pixel_sigma)) : 1.0;
+  const double excess = freedom > 0 ? std::max(1.0, squares / freedom / (pixel_sigma * pixel_sigma)) : 1.0;
   pose.covariance = excess * best.information.inverse();
   if (prior.relative_sigma == 0) {
     pose.covariance.row(6).setZero();

@@ -11,7 +11,8 @@
 namespace aeolian {
 namespace {
 
-constexpr int lags = 5;  // 0 to 4 stations apart
+constexpr double weighted_share = 0.776;  // variance that the robust weights leave of normal residuals
+constexpr int far = 8;                    // stations apart at which noise is no longer alike
 
 /// Autocorrelation of a filter, two-sided around lag 0.
 std::vector<double> autocorrelation(const std::vector<double>& filter) {
@@ -46,34 +47,39 @@ double at(const std::vector<double>& values, int lag) {
   return i < values.size() ? values[i] : 0;
 }
 
-/// Variance of the smoothed values over that of the residuals.
+/// Variance that a filter of the given autocorrelation leaves of noise whose neighbours are `likeness` alike,
+/// at a lag: the likeness falls off as a Gaussian, to its fourth power at twice the distance.
+double filtered(const std::vector<double>& filter, double likeness, int lag) {
+  double sum = at(filter, lag);
+  for (int m = 1; m < far; ++m)
+    sum += std::pow(likeness, m * m) * (at(filter, lag - m) + at(filter, lag + m));
+  return sum;
+}
+
+/// Variance of the smoothed values over that of the residuals. The regression makes neighbouring residuals
+/// unlike in a known way; what likeness they keep tells the noise's own.
 double variance_ratio(const std::vector<double>& residuals, const std::vector<double>& kernel) {
-  Eigen::Matrix<double, lags, 1> seen = Eigen::Matrix<double, lags, 1>::Zero();
-  for (int lag = 0; lag < lags; ++lag) {
-    double count = 0;
-    for (std::size_t i = 0; i + static_cast<std::size_t>(lag) < residuals.size(); ++i) {
-      const double product = residuals[i] * residuals[i + static_cast<std::size_t>(lag)];
-      if (std::isnan(product)) continue;
-      seen[lag] += product;
-      ++count;
-    }
-    seen[lag] /= std::max(1.0, count);
+  double squares = 0;
+  double products = 0;
+  for (std::size_t i = 0; i + 1 < residuals.size(); ++i) {
+    if (std::isnan(residuals[i] * residuals[i + 1])) continue;
+    squares += (residuals[i] * residuals[i] + residuals[i + 1] * residuals[i + 1]) / 2;
+    products += residuals[i] * residuals[i + 1];
   }
   std::vector<double> left = kernel;
   for (double& weight : left) weight = -weight;
   left[left.size() / 2] += 1;
   const std::vector<double> of_residuals = autocorrelation(left);
-  const std::vector<double> of_fit = autocorrelation(kernel);
-  Eigen::Matrix<double, lags, lags> mixing;
-  for (int l = 0; l < lags; ++l)
-    for (int m = 0; m < lags; ++m)
-      mixing(l, m) = m == 0 ? at(of_residuals, l) : at(of_residuals, l - m) + at(of_residuals, l + m);
-  const Eigen::Matrix<double, lags, 1> covariance = mixing.fullPivLu().solve(seen);
-  double variance = 0;
-  for (int m = 0; m < lags; ++m) variance += (m == 0 ? 1 : 2) * covariance[m] * at(of_fit, m);
-  // Scatter without likeness is the least there can be.
-  const double independent = seen[0] / at(of_residuals, 0) * at(of_fit, 0);
-  return std::max(variance, independent) / seen[0];
+  double low = 0;
+  double high = 0.9;
+  while (high - low > 1e-4) {
+    const double likeness = (low + high) / 2;
+    const bool more =
+        squares > 0 &&
+        filtered(of_residuals, likeness, 1) / filtered(of_residuals, likeness, 0) < products / squares;
+    (more ? low : high) = likeness;
+  }
+  return filtered(autocorrelation(kernel), low, 0) / filtered(of_residuals, low, 0);
 }
 
 }  // namespace
@@ -90,8 +96,8 @@ Section section_of(const std::vector<Eigen::Vector2d>& pixels, const PhotoGeomet
   return section;
 }
 
-std::vector<double> scatter_sigma(const std::vector<double>& z, const LocalQuadratic& smooth, double half_width,
-                                  double spacing) {
+std::vector<double> scatter_sigma(const std::vector<double>& z, const LocalQuadratic& smooth,
+                                  double half_width, double spacing) {
   const std::size_t n = z.size();
   const std::vector<double> kernel = even_kernel(half_width, spacing);
   std::vector<double> residuals(n, std::numeric_limits<double>::quiet_NaN());
@@ -104,11 +110,16 @@ std::vector<double> scatter_sigma(const std::vector<double>& z, const LocalQuadr
   constexpr std::size_t reach = 40;
   for (std::size_t i = 0; i < n; ++i) {
     double squares = 0;
-    int count = 0;
+    double count = 0;
     for (std::size_t k = i < reach ? 0 : i - reach; k < std::min(n, i + reach + 1); ++k)
-      if (!std::isnan(residuals[k])) squares += residuals[k] * residuals[k], ++count;
+      if (!std::isnan(residuals[k])) {
+        squares += smooth.robust_weight[k] * residuals[k] * residuals[k];
+        count += smooth.robust_weight[k];
+      }
     // Beside gaps and ends the fit rests on fewer stations than amid even ones.
-    if (count > 5) sigma[i] = std::sqrt(squares / count * ratio) * std::max(1.0, smooth.noise_gain[i] / even_gain);
+    if (count > 5)
+      sigma[i] = std::sqrt(squares / count / weighted_share * ratio) *
+                 std::max(1.0, smooth.noise_gain[i] / even_gain);
   }
   return sigma;
 }
@@ -133,7 +144,8 @@ SharedError shared_error(const PhotoSetup& setup, const SetupGeometry& frame, co
     for (std::size_t i = 0; i < chosen.size(); ++i)
       effect.push_back(moved.z[i] - best.z[i] - slope[places[i]] * (moved.x[i] - best.x[i]));
     const double shift =
-        zero_mean ? std::accumulate(effect.begin(), effect.end(), 0.0) / static_cast<double>(effect.size()) : 0;
+        zero_mean ? std::accumulate(effect.begin(), effect.end(), 0.0) / static_cast<double>(effect.size())
+                  : 0;
     for (std::size_t i = 0; i < effect.size(); ++i) variance[i] += std::pow(effect[i] - shift, 2);
     error.elevation = std::hypot(error.elevation, moved_light.elevation - light.elevation);
     error.azimuth = std::hypot(error.azimuth, moved_light.azimuth - light.azimuth);
@@ -154,7 +166,8 @@ SharedError shared_error(const PhotoSetup& setup, const SetupGeometry& frame, co
   std::size_t low = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     while (low + 2 < places.size() && places[low + 1] <= i) ++low;
-    const double t = static_cast<double>(i - places[low]) / static_cast<double>(places[low + 1] - places[low]);
+    const double t =
+        static_cast<double>(i - places[low]) / static_cast<double>(places[low + 1] - places[low]);
     error.sigma.push_back(std::sqrt((1 - t) * variance[low] + t * variance[low + 1]));
   }
   return error;

@@ -20,8 +20,8 @@ Section section_of(const std::vector<Eigen::Vector2d>& pixels, const PhotoGeomet
 /// Standard errors of the smoothed heights that come from the stations' own scatter (grains, texture,
 /// pixels) [m]. Neighbours are alike, since they share grains and blur: their covariance up to four stations
 /// apart is solved from that of the residuals, which the regression has changed in a known way.
-std::vector<double> scatter_sigma(const std::vector<double>& z, const LocalQuadratic& smooth, double half_width,
-                                  double spacing);
+std::vector<double> scatter_sigma(const std::vector<double>& z, const LocalQuadratic& smooth,
+                                  double half_width, double spacing);
 
 /// What is common to a whole profile.
 struct SharedError {

@@ -73,7 +73,8 @@ CameraModel unknown_camera(const Photo& photo, double focal) {
 std::vector<PlanePoint> plane_points(const Photo& photo, const PhotoSetup& setup) {
   std::vector<PlanePoint> points;
   if (setup.markers) points = find_markers(photo, *setup.markers);
-  const bool plane = std::all_of(setup.scale.begin(), setup.scale.end(), [](const auto& m) { return m.y.has_value(); });
+  const bool plane =
+      std::all_of(setup.scale.begin(), setup.scale.end(), [](const auto& m) { return m.y.has_value(); });
   if (plane || setup.markers)
     for (const auto& mark : setup.scale)
       if (mark.y) points.push_back({{mark.x, *mark.y}, mark.pixel});
@@ -100,14 +101,16 @@ CameraPose plumb_pose(const PhotoSetup& setup, const CameraModel& camera) {
   for (std::size_t i = 0; i < u.size(); ++i) right.push_back(setup.scale[i].x * (c + u[i] * s));
   const Regression fit = regress(u, right);
   if (fit.worst * camera.fx / fit.slope > 3)
-    throw Error(fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
-                            1e3 * setup.scale[fit.worst_at].x, fit.worst * camera.fx / fit.slope));
+    throw Error(
+        fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
+                    1e3 * setup.scale[fit.worst_at].x, fit.worst * camera.fx / fit.slope));
   const Eigen::Vector2d across(line.direction.y(), -line.direction.x());
   const double height = fit.slope;
   const Eigen::Vector3d centre(fit.offset, -line.point.dot(across) * height, height);
   Eigen::Matrix3d level_to_camera;
   level_to_camera << line.direction.x(), across.x(), 0, line.direction.y(), across.y(), 0, 0, 0, -1;
-  const Eigen::Matrix3d to_level = Eigen::AngleAxisd(-setup.inclination, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Eigen::Matrix3d to_level =
+      Eigen::AngleAxisd(-setup.inclination, Eigen::Vector3d::UnitY()).toRotationMatrix();
   CameraPose pose;
   pose.camera = camera;
   pose.to_camera.linear() = level_to_camera * to_level;
@@ -126,9 +129,10 @@ void require_edge_agreement(const PhotoGeometry& geometry, const PhotoSetup& set
     const Eigen::Vector2d plan = geometry.top_face(pixel);
     const double miss = (geometry.pixel(plan.x(), 0) - pixel).norm();
     if (miss > 5 && std::abs(plan.y()) > 1e-3)
-      throw Error(fmt::format("straightedge.line_px: the point ({:.1f}, {:.1f}) lies {:.1f} px from the casting edge "
-                              "y = 0 of the marks",
-                              pixel.x(), pixel.y(), miss));
+      throw Error(
+          fmt::format("straightedge.line_px: the point ({:.1f}, {:.1f}) lies {:.1f} px from the casting edge "
+                      "y = 0 of the marks",
+                      pixel.x(), pixel.y(), miss));
   }
 }
 
@@ -149,25 +153,29 @@ void full_geometry(const Photo& photo, const PhotoSetup& setup, const std::vecto
     pose = plumb_pose(setup, camera);
     pose.covariance(6, 6) = prior.relative_sigma * prior.relative_sigma;
   } else if (points.empty()) {
-    throw Error("marks along one row alone do not fix a tilted camera: give markers, a second row of marks with x "
-                "and y, or 'camera.plumb: true' for a camera that looks straight down; or use --mode overhead");
+    throw Error(
+        "marks along one row alone do not fix a tilted camera: give markers, a second row of marks with x "
+        "and y, or 'camera.plumb: true' for a camera that looks straight down; or use --mode overhead");
   } else {
     pose = fit_pose(points, camera, prior);
   }
   if (!setup.camera)
-    result.remarks.push_back(fmt::format("no calibrated camera: focal length {:.0f} px, good to {:.1f} %, no lens distortion",
-                                         pose.camera.fx, 100 * std::sqrt(pose.covariance(6, 6))));
+    result.remarks.push_back(
+        fmt::format("no calibrated camera: focal length {:.0f} px, good to {:.1f} %, no lens distortion",
+                    pose.camera.fx, 100 * std::sqrt(pose.covariance(6, 6))));
   result.pose = pose;
   result.geometry = std::make_shared<FullGeometry>(pose, setup.inclination);
   // What the residuals of the marks leave open in lengths along the straightedge.
   double span = 0;
-  for (const auto& point : points) span = std::max(span, std::abs(point.position.x() - points.front().position.x()));
+  for (const auto& point : points)
+    span = std::max(span, std::abs(point.position.x() - points.front().position.x()));
   if (span > 0)
-    result.scale_sigma = std::max(0.1, pose.rms_px) * pose.to_camera.translation().norm() / pose.camera.fx / span /
-                         std::sqrt(static_cast<double>(points.size()) / 4);
+    result.scale_sigma = std::max(0.1, pose.rms_px) * pose.to_camera.translation().norm() / pose.camera.fx /
+                         span / std::sqrt(static_cast<double>(points.size()) / 4);
 }
 
-void overhead_geometry(const PhotoSetup& setup, const std::vector<PlanePoint>& points, SetupGeometry& result) {
+void overhead_geometry(const PhotoSetup& setup, const std::vector<PlanePoint>& points,
+                       SetupGeometry& result) {
   Eigen::Vector2d origin;
   Eigen::Vector2d along;
   double scale = 0;
@@ -197,8 +205,9 @@ void overhead_geometry(const PhotoSetup& setup, const std::vector<PlanePoint>& p
     }
     const Regression fit = regress(x, t);
     if (fit.worst > std::max(3.0, 0.02 * std::abs(t.back() - t.front())))
-      throw Error(fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
-                              1e3 * x[fit.worst_at], fit.worst));
+      throw Error(
+          fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
+                      1e3 * x[fit.worst_at], fit.worst));
     scale = std::abs(fit.slope);
     along = fit.slope > 0 ? line.direction : Eigen::Vector2d(-line.direction);
     origin = line.point + fit.offset * line.direction;

@@ -21,9 +21,9 @@
 namespace aeolian {
 namespace {
 
-constexpr double steepest_border = 3.5;          // of the terminus to the edge: slip faces in light of 15 degrees
-constexpr double steepest_bed = 0.9;             // tan 42 degrees
-constexpr double smoothing_stations = 5;         // half width of the regression along the profile
+constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
+constexpr double steepest_bed = 0.9;      // tan 42 degrees
+constexpr double smoothing_stations = 5;  // half width of the regression along the profile
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -78,15 +78,14 @@ class Measurement {
                                         frame_.geometry->bed_point(station.lower, light_).z()));
     }
     if (profile.x.size() < 20) throw Error("no shadow with a clear border");
-    const SharedError shared = shared_error(setup_, frame_, source, light_, profile.terminus_px, slope,
-                                            !setup_.height.has_value());
+    const SharedError shared =
+        shared_error(setup_, frame_, source, light_, profile.terminus_px, slope, !setup_.height.has_value());
     for (std::size_t i = 0; i < profile.x.size(); ++i)
       profile.sigma_z[i] = std::hypot(profile.sigma_z[i], shared.sigma[i]);
     profile.elevation = {light_.elevation, shared.elevation};
     profile.azimuth = {light_.azimuth, shared.azimuth};
-    profile.relative_sigma =
-        std::hypot(2 * shared.elevation / std::sin(2 * light_.elevation),
-                   std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
+    profile.relative_sigma = std::hypot(2 * shared.elevation / std::sin(2 * light_.elevation),
+                                        std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
     finish(profile);
     return profile;
   }

@@ -19,20 +19,24 @@ constexpr double least_contrast = 1.5;  // sunlit over shaded, linear light
 constexpr double reach = 6e-3;          // so far on either side of the border the light must be right [m]
 constexpr int least_shadow = 3;         // rows
 constexpr float hidden_cost = 0.4F;
-constexpr float bend_cost = 0.25F;      // of a path that changes by one row, in rows of wrong light
-constexpr double most_clipped = 0.12;    // of the sunlit bed
-constexpr float clipped = 0.985F;       // linear light at which 8 bits are nearly full
+constexpr float bend_cost = 0.25F;     // of a path that changes by one row, in rows of wrong light
+constexpr double most_clipped = 0.12;  // of the sunlit bed
+constexpr float clipped = 0.985F;      // linear light at which 8 bits are nearly full
 
 /// Linear light over the plane of the top face on one side of the edge: columns along x, rows away from it.
 struct Grid {
   double start = 0, step = 0;  // x of the columns [m]
   double row = 0;              // spacing of the rows [m]
   int columns = 0, rows = 0;
-  std::vector<float> light;    // column by column
-  std::vector<int> depth;      // rows of each column that are on the photo
+  std::vector<float> light;  // column by column
+  std::vector<int> depth;    // rows of each column that are on the photo
 
-  float at(int i, int j) const { return light[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(j)]; }
-  float& at(int i, int j) { return light[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(j)]; }
+  float at(int i, int j) const {
+    return light[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(j)];
+  }
+  float& at(int i, int j) {
+    return light[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(j)];
+  }
   int depth_of(int i) const { return depth[static_cast<std::size_t>(i)]; }
 };
 
@@ -64,7 +68,8 @@ Grid sample(const Tone& tone, int width, int height, const PhotoGeometry& geomet
   Grid grid;
   const double middle = (span.from + span.to) / 2;
   const double tiny = (span.to - span.from) * 1e-4;
-  const double px_along = (geometry.pixel(middle + tiny, 0) - geometry.pixel(middle - tiny, 0)).norm() / (2 * tiny);
+  const double px_along =
+      (geometry.pixel(middle + tiny, 0) - geometry.pixel(middle - tiny, 0)).norm() / (2 * tiny);
   const double px_across = (geometry.pixel(middle, tiny) - geometry.pixel(middle, -tiny)).norm() / (2 * tiny);
   grid.step = std::max(2 / px_along, (span.to - span.from) / most_columns);
   grid.columns = static_cast<int>((span.to - span.from) / grid.step);
@@ -89,7 +94,8 @@ Grid sample(const Tone& tone, int width, int height, const PhotoGeometry& geomet
       for (int j = 0; j < grid.depth_of(i); j += stride) {
         const int end = std::min(j + stride, grid.depth_of(i));
         const Eigen::Vector2d first = geometry.pixel(x, side * j * grid.row);
-        const Eigen::Vector2d step = (geometry.pixel(x, side * end * grid.row) - first) / ((end - j) * across);
+        const Eigen::Vector2d step =
+            (geometry.pixel(x, side * end * grid.row) - first) / ((end - j) * across);
         for (int k = 0; k < (end - j) * across; ++k) {
           const Eigen::Vector2d p = first + (k + 0.5) * step;
           grid.at(i, j + k / across) += tone(static_cast<int>(p.x() + 0.5), static_cast<int>(p.y() + 0.5));
@@ -165,17 +171,21 @@ std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) 
     sums[0] = 0;
     for (int j = 0; j < rows; ++j)
       sums[static_cast<std::size_t>(j) + 1] =
-          sums[static_cast<std::size_t>(j)] + (j < edge_rows || j >= depth ? 0 : sunlit(grid.at(i, j), level));
+          sums[static_cast<std::size_t>(j)] +
+          (j < edge_rows || j >= depth ? 0 : sunlit(grid.at(i, j), level));
     float least = std::numeric_limits<float>::infinity();
     for (int j = 0; j < rows; ++j) {
-      const auto sum_to = [&](int row) { return sums[static_cast<std::size_t>(std::clamp(row, edge_rows, depth))]; };
+      const auto sum_to = [&](int row) {
+        return sums[static_cast<std::size_t>(std::clamp(row, edge_rows, depth))];
+      };
       const int at = std::clamp(j, edge_rows, std::max(edge_rows, depth));
       const int inner_rows = std::min(window, at - edge_rows);
       const int outer_rows = std::max(0, std::min(window, depth - at));
       // Rows that the bar or the photo's border hides count as half wrong.
-      const float inner = inner_rows < least_shadow
-                              ? static_cast<float>(window)
-                              : sum_to(at) - sum_to(at - window) + hidden_cost * static_cast<float>(window - inner_rows);
+      const float inner =
+          inner_rows < least_shadow
+              ? static_cast<float>(window)
+              : sum_to(at) - sum_to(at - window) + hidden_cost * static_cast<float>(window - inner_rows);
       const float outer = static_cast<float>(outer_rows) - (sum_to(at + window) - sum_to(at)) +
                           hidden_cost * static_cast<float>(window - outer_rows);
       float& c = cost[static_cast<std::size_t>(j)];
@@ -233,9 +243,9 @@ std::vector<Levels> levels_along(const Grid& grid, const std::vector<int>& path,
 
 struct Verdict {
   RoughTerminus terminus;
-  int found = 0;        // columns with a clear border
-  int off_photo = 0;    // columns that are dark to the photo's border
-  double clipped = 0;   // share of over-exposed bed beyond the border
+  int found = 0;       // columns with a clear border
+  int off_photo = 0;   // columns that are dark to the photo's border
+  double clipped = 0;  // share of over-exposed bed beyond the border
 };
 
 Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<Levels>& levels, int side) {
@@ -273,17 +283,18 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   const auto typical = first_levels(grid);
   if (!typical) throw Error("no shadow: the photo ends beside the casting edge");
   if (!(typical->lit > least_contrast * typical->dark))
-    throw Error(fmt::format("no shadow: beside the casting edge the photo is {:.2f} as bright as the bed beyond",
-                            typical->lit > 0 ? typical->dark / typical->lit : 1));
+    throw Error(
+        fmt::format("no shadow: beside the casting edge the photo is {:.2f} as bright as the bed beyond",
+                    typical->lit > 0 ? typical->dark / typical->lit : 1));
   std::vector<Levels> levels(static_cast<std::size_t>(grid.columns), *typical);
   std::vector<int> path = best_path(grid, levels);
   levels = levels_along(grid, path, *typical);
   path = best_path(grid, levels);
   const Verdict verdict = judge(grid, path, levels, side);
   if (verdict.clipped > most_clipped)
-    throw Error(fmt::format("over-exposed: {:.0f} % of the sunlit bed beside the shadow is white", 100 * verdict.clipped));
-  if (verdict.off_photo > grid.columns / 2)
-    throw Error("the far border of the shadow is outside the photo");
+    throw Error(fmt::format("over-exposed: {:.0f} % of the sunlit bed beside the shadow is white",
+                            100 * verdict.clipped));
+  if (verdict.off_photo > grid.columns / 2) throw Error("the far border of the shadow is outside the photo");
   if (verdict.found < std::max(20, grid.columns * 3 / 10))
     throw Error(fmt::format("no shadow with a clear border: it is found in {:.0f} % of the photo's width",
                             100.0 * verdict.found / grid.columns));
@@ -317,11 +328,14 @@ RoughTerminus search_shadow(const Tone& tone, int width_px, int height_px, const
   std::string reason;
   for (const int either : {1, -1}) try {
       const RoughTerminus terminus = search_side(tone, width_px, height_px, geometry, span, either);
-      if (found) throw Error("there is a shadow on either side of the straightedge: two lights, or give marks "
-                             "with y so that its top face is known");
+      if (found)
+        throw Error(
+            "there is a shadow on either side of the straightedge: two lights, or give marks "
+            "with y so that its top face is known");
       found = terminus;
     } catch (const Error& error) {
-      if (found && reason.empty() && std::string(error.what()).find("either side") != std::string::npos) throw;
+      if (found && reason.empty() && std::string(error.what()).find("either side") != std::string::npos)
+        throw;
       if (reason.empty()) reason = error.what();
     }
   if (!found) throw Error(reason);

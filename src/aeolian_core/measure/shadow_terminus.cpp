@@ -15,10 +15,10 @@ double normal_density(double t) { return std::exp(-0.5 * t * t) * 0.398942280401
 
 /// Light across the rough border, station by station; rows run away from the edge, one pixel apart.
 struct Strips {
-  int rows = 0;                 // of each strip; the middle one lies on the rough border
-  std::vector<double> x, y;     // of the middle of the strip on the plane of the top face [m]
-  std::vector<float> light;     // rows of all strips, NaN where not to be looked at
-  std::vector<float> lower;     // first row over half light and last row under it, mean of the sub-columns
+  int rows = 0;              // of each strip; the middle one lies on the rough border
+  std::vector<double> x, y;  // of the middle of the strip on the plane of the top face [m]
+  std::vector<float> light;  // rows of all strips, NaN where not to be looked at
+  std::vector<float> lower;  // first row over half light and last row under it, mean of the sub-columns
   std::vector<float> upper;
 
   std::size_t size() const { return x.size(); }
@@ -32,7 +32,8 @@ std::optional<double> rough_at(const RoughTerminus& rough, double x) {
   const auto i = static_cast<std::ptrdiff_t>(std::floor(at));
   if (i < 0 || i + 1 >= static_cast<std::ptrdiff_t>(rough.y.size())) return {};
   const double t = at - static_cast<double>(i);
-  const double y = (1 - t) * rough.y[static_cast<std::size_t>(i)] + t * rough.y[static_cast<std::size_t>(i) + 1];
+  const double y =
+      (1 - t) * rough.y[static_cast<std::size_t>(i)] + t * rough.y[static_cast<std::size_t>(i) + 1];
   if (std::isnan(y)) return {};
   return y;
 }
@@ -46,7 +47,8 @@ RoughTerminus smoothed(const RoughTerminus& rough) {
     int count = 0;
     for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - 1); k <= std::min(n - 1, i + 1); ++k)
       if (const double y = rough.y[static_cast<std::size_t>(k)]; !std::isnan(y)) sum += y, ++count;
-    if (!std::isnan(rough.y[static_cast<std::size_t>(i)])) result.y[static_cast<std::size_t>(i)] = sum / count;
+    if (!std::isnan(rough.y[static_cast<std::size_t>(i)]))
+      result.y[static_cast<std::size_t>(i)] = sum / count;
   }
   return result;
 }
@@ -75,7 +77,8 @@ Strips cut(const Tone& tone, const PhotoGeometry& geometry, const RoughTerminus&
     }
     for (int r = 0; r < strips.rows; ++r) {
       const bool beside_bar = *y / pixel_size + strips.offset(r) < edge_px;
-      strips.light.push_back(beside_bar ? nan : sum[static_cast<std::size_t>(r)] / static_cast<float>(sub_columns));
+      strips.light.push_back(beside_bar ? nan
+                                        : sum[static_cast<std::size_t>(r)] / static_cast<float>(sub_columns));
     }
     strips.x.push_back(x);
     strips.y.push_back(*y);
@@ -103,7 +106,8 @@ double mean_light(const Strips& strips, std::size_t k, double from, double to) {
   const int begin = std::max(0, static_cast<int>(std::ceil(from)) + half);
   const int end = std::min(strips.rows - 1, static_cast<int>(std::floor(to)) + half);
   for (int r = begin; r <= end; ++r)
-    if (const float value = strips.strip(k)[r]; !std::isnan(value)) sum += static_cast<double>(value), ++count;
+    if (const float value = strips.strip(k)[r]; !std::isnan(value))
+      sum += static_cast<double>(value), ++count;
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -136,12 +140,15 @@ std::vector<Level> surrounding_levels(const Strips& strips, const std::vector<do
     if (std::isnan(block[b].dark)) block[b].dark = block[b + 1].dark;
   std::vector<Level> result(strips.size());
   for (std::size_t k = 0; k < strips.size(); ++k) {
-    const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(strips.size()) * static_cast<double>(blocks) - 0.5;
+    const double at =
+        (static_cast<double>(k) + 0.5) / static_cast<double>(strips.size()) * static_cast<double>(blocks) -
+        0.5;
     const double low = std::clamp(std::floor(at), 0.0, static_cast<double>(blocks - 1));
     const auto b = static_cast<std::size_t>(low);
     const std::size_t next = std::min(b + 1, blocks - 1);
     const double t = std::clamp(at - low, 0.0, 1.0);
-    result[k] = {(1 - t) * block[b].dark + t * block[next].dark, (1 - t) * block[b].lit + t * block[next].lit};
+    result[k] = {(1 - t) * block[b].dark + t * block[next].dark,
+                 (1 - t) * block[b].lit + t * block[next].lit};
   }
   return result;
 }
@@ -251,12 +258,12 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
   const RoughTerminus path = smoothed(rough);
   const double middle = rough.start + rough.step * static_cast<double>(rough.y.size()) / 2;
   constexpr double tiny = 1e-5;
-  const double pixel_size =
-      2 * tiny / (geometry.pixel(middle, tiny) - geometry.pixel(middle, -tiny)).norm();
+  const double pixel_size = 2 * tiny / (geometry.pixel(middle, tiny) - geometry.pixel(middle, -tiny)).norm();
 
   Terminus terminus;
   terminus.pixel_size = pixel_size;
-  int half_rows = std::max(10, static_cast<int>(std::ceil(2.5 * rough.row / pixel_size + 2 * spacing / pixel_size)));
+  int half_rows =
+      std::max(10, static_cast<int>(std::ceil(2.5 * rough.row / pixel_size + 2 * spacing / pixel_size)));
   Strips strips;
   std::vector<double> s;
   std::vector<Level> levels;
@@ -281,7 +288,8 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
         const std::size_t begin = b * strips.size() / blocks;
         const std::size_t end = (b + 1) * strips.size() / blocks;
         const double w = blur_of(strips, s, levels, begin, end);
-        std::fill(width.begin() + static_cast<std::ptrdiff_t>(begin), width.begin() + static_cast<std::ptrdiff_t>(end), w);
+        std::fill(width.begin() + static_cast<std::ptrdiff_t>(begin),
+                  width.begin() + static_cast<std::ptrdiff_t>(end), w);
         widest = std::max(widest, w);
       }
       clear = std::min(0.75 * half_rows, 2.2 * widest + 1);

@@ -22,10 +22,10 @@ struct Terminus {
   double contrast = 0;            ///< sunlit over shaded light
 };
 
-/// Fits the border of the shadow at stations `spacing` [m] apart near its rough place. Each station is a strip
-/// as wide as the spacing; across it the light rises as dark + (lit - dark) Phi((s - terminus) / width), with
-/// the levels and the width taken from its surroundings. Half of the light is the ray past the edge from the
-/// centre of the sun, whose penumbra is symmetric.
+/// Fits the border of the shadow at stations `spacing` [m] apart near its rough place. Each station is a
+/// strip as wide as the spacing; across it the light rises as dark + (lit - dark) Phi((s - terminus) /
+/// width), with the levels and the width taken from its surroundings. Half of the light is the ray past the
+/// edge from the centre of the sun, whose penumbra is symmetric.
 Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const RoughTerminus& rough,
                          double spacing);
 

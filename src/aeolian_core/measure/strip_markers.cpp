@@ -22,15 +22,23 @@ using Corners = std::array<Eigen::Vector2d, 4>;  // upper left, upper right, low
 const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME>& dictionaries() {
   using namespace cv::aruco;
   static const std::map<std::string, PREDEFINED_DICTIONARY_NAME> all{
-      {"DICT_4X4_50", DICT_4X4_50},           {"DICT_4X4_100", DICT_4X4_100},
-      {"DICT_4X4_250", DICT_4X4_250},         {"DICT_4X4_1000", DICT_4X4_1000},
-      {"DICT_5X5_50", DICT_5X5_50},           {"DICT_5X5_100", DICT_5X5_100},
-      {"DICT_5X5_250", DICT_5X5_250},         {"DICT_5X5_1000", DICT_5X5_1000},
-      {"DICT_6X6_50", DICT_6X6_50},           {"DICT_6X6_100", DICT_6X6_100},
-      {"DICT_6X6_250", DICT_6X6_250},         {"DICT_6X6_1000", DICT_6X6_1000},
+      {"DICT_4X4_50", DICT_4X4_50},
+      {"DICT_4X4_100", DICT_4X4_100},
+      {"DICT_4X4_250", DICT_4X4_250},
+      {"DICT_4X4_1000", DICT_4X4_1000},
+      {"DICT_5X5_50", DICT_5X5_50},
+      {"DICT_5X5_100", DICT_5X5_100},
+      {"DICT_5X5_250", DICT_5X5_250},
+      {"DICT_5X5_1000", DICT_5X5_1000},
+      {"DICT_6X6_50", DICT_6X6_50},
+      {"DICT_6X6_100", DICT_6X6_100},
+      {"DICT_6X6_250", DICT_6X6_250},
+      {"DICT_6X6_1000", DICT_6X6_1000},
       {"DICT_ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
-      {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5}, {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
-      {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10}, {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
+      {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5},
+      {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
+      {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10},
+      {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
   return all;
 }
 
@@ -77,7 +85,8 @@ std::optional<double> half_light(const Tone& tone, const Eigen::Vector2d& at, co
   const float half = (black + white) / 2;
   for (std::size_t i = 1; i < light.size(); ++i)
     if (light[i - 1] < half && light[i] >= half)
-      return (static_cast<double>(i) - 1 + static_cast<double>((half - light[i - 1]) / (light[i] - light[i - 1]))) *
+      return (static_cast<double>(i) - 1 +
+              static_cast<double>((half - light[i - 1]) / (light[i] - light[i - 1]))) *
                  step -
              reach;
   return {};
@@ -144,8 +153,9 @@ std::optional<Corners> refined(const Tone& tone, const Corners& corners, int mod
 std::vector<PlanePoint> find_markers(const Photo& photo, const PhotoSetup::Markers& markers) {
   const auto known = dictionaries().find(markers.dictionary);
   if (known == dictionaries().end())
-    throw Error(fmt::format("straightedge.markers.dictionary is '{}', must be one of OpenCV's, such as DICT_4X4_50",
-                            markers.dictionary));
+    throw Error(
+        fmt::format("straightedge.markers.dictionary is '{}', must be one of OpenCV's, such as DICT_4X4_50",
+                    markers.dictionary));
   const auto dictionary = cv::aruco::getPredefinedDictionary(known->second);
   const int modules = dictionary->markerSize + 2;
 
@@ -183,7 +193,8 @@ std::vector<PlanePoint> find_markers(const Photo& photo, const PhotoSetup::Marke
     for (std::size_t i = 0; i < 4; ++i) points.push_back({centre.position + offsets[i], corners[i]});
   }
   if (points.empty())
-    throw Error(fmt::format("none of the {} markers of {} is seen", markers.centres.size(), markers.dictionary));
+    throw Error(
+        fmt::format("none of the {} markers of {} is seen", markers.centres.size(), markers.dictionary));
   return points;
 }
 

@@ -5,17 +5,14 @@
 namespace aeolian {
 
 Tone::Tone(const Photo& photo)
-    : width_(photo.width_px),
-      height_(photo.height_px),
-      light_(static_cast<std::size_t>(photo.white) + 1) {
+    : width_(photo.width_px), height_(photo.height_px), light_(static_cast<std::size_t>(photo.white) + 1) {
   if (photo.white == 255)
     values8_ = photo.values8.data();
   else
     values16_ = photo.values16.data();
   for (std::size_t i = 0; i < light_.size(); ++i) {
     const double value = static_cast<double>(i) / photo.white;
-    light_[i] =
-        static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    light_[i] = static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
   }
 }
 

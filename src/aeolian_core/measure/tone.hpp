@@ -17,8 +17,8 @@ class Tone {
   float operator()(int u, int v) const {
     const int column = u < 0 ? 0 : u >= width_ ? width_ - 1 : u;
     const int row = v < 0 ? 0 : v >= height_ ? height_ - 1 : v;
-    const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                           static_cast<std::size_t>(column);
+    const std::size_t at =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
     return values8_ != nullptr ? light_[values8_[at]] : light_[values16_[at]];
   }
   /// The same between pixels, bilinear.
