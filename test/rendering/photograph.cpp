@@ -348,6 +348,7 @@ Photo photograph(const ShadowScene& scene) {
   Photo photo;
   photo.width_px = values.cols;
   photo.height_px = values.rows;
+  photo.exif_focal_px = scene.exif_focal_px;
   photo.values8.assign(values.datastart, values.dataend);
   return photo;
 }

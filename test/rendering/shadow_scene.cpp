@@ -34,6 +34,20 @@ Eigen::Vector3d true_bed_point(const ShadowScene& scene, double x) {
   return on_plane((before + after) / 2);
 }
 
+Eigen::Vector3d true_tip_shadow(const ShadowScene& scene) {
+  const Eigen::Vector3d tip = level_to_straightedge(scene).transpose() *
+                              Eigen::Vector3d(scene.post_x, 0, scene.post_height.value_or(0));
+  const Eigen::Vector3d light = to_light(scene, scene.azimuth);
+  double travelled = 0;
+  for (int step = 0; step < 2000; ++step) {
+    const Eigen::Vector3d point = tip - travelled * light;
+    const double height = point.z() - scene.bed(point.x(), point.y());
+    if (std::abs(height) < 1e-12) break;
+    travelled += 0.7 * height / light.z();  // short steps: the bed may rise or fall along the ray
+  }
+  return tip - travelled * light;
+}
+
 Eigen::Vector2d true_pixel(const ShadowScene& scene, const Eigen::Vector3d& point) {
   return Lens(scene.camera).pixel((scene.level_to_camera * point).hnormalized());
 }

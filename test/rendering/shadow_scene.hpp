@@ -57,6 +57,7 @@ struct ShadowScene {
   double exposure = 0.8;        ///< linear value of a sunlit level bed in the middle; above 1 clips
   double noise = 0.01;          ///< standard deviation of a linear value of 1, falling with its root
   int jpeg_quality = 92;        ///< 0: no JPEG, the values as they are
+  std::optional<double> exif_focal_px;  ///< handed on to the photo [px]
   std::uint64_t seed = 1;
 };
 
@@ -69,6 +70,9 @@ void write_jpeg(const ShadowScene& scene, const std::string& path);
 /// along the straightedge is x [m]. The centre of the source counts.
 Eigen::Vector3d true_bed_point(const ShadowScene& scene, double x);
 
+/// Where the centre of the source casts the tip of the post onto the smooth bed, in the level frame [m].
+Eigen::Vector3d true_tip_shadow(const ShadowScene& scene);
+
 /// Where a point of the level frame is seen [px].
 Eigen::Vector2d true_pixel(const ShadowScene& scene, const Eigen::Vector3d& point);
 
@@ -77,7 +81,9 @@ struct SetUp {
   ShadowScene scene;
   PhotoSetup setup;
   std::string yaml;       ///< the same setup as a file's text
-  double wavelength = 0;  ///< of the ripples, along x [m]
+  double wavelength = 0;  ///< of the ripples along the straightedge, in the section that the shadow draws [m]
+  double from = 0;        ///< the part of the straightedge along which its top face and the far border of
+  double to = 0;          ///< its shadow are in the frame [m]
 };
 
 /// One of the random set-ups of the accuracy bars: elevation 15-55 degrees, azimuth +-25, camera tilt +-20
