@@ -29,14 +29,18 @@ constexpr double yaml_row = 3.6;
 constexpr int dictionary_size = 50;
 constexpr int modules = 6;  ///< of a marker's side: 4 and its black border
 
-void text(cairo_t* cairo, double x, double baseline, double size, const std::string& words, bool bold = false,
-          bool typewriter = false) {
+/// Gives where the words end.
+double text(cairo_t* cairo, double x, double baseline, double size, const std::string& words,
+            bool bold = false, bool typewriter = false) {
   cairo_select_font_face(cairo, typewriter ? "monospace" : "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, size);
   cairo_move_to(cairo, x, baseline);
   cairo_show_text(cairo, words.c_str());
+  double end = 0;
+  cairo_get_current_point(cairo, &end, nullptr);
   cairo_new_path(cairo);
+  return end;
 }
 
 void line(cairo_t* cairo, double x1, double y1, double x2, double y2, double width) {
@@ -81,10 +85,11 @@ void draw_ticks(cairo_t* cairo, double zero, double top, int from, int to) {
 /// Says on the strip itself which way round it belongs.
 void draw_words(cairo_t* cairo, double left, double top, double length) {
   constexpr double every = 90;
-  for (double x = left + 6; x + 42 < left + length; x += every) {
+  constexpr double longest = 50;
+  for (double x = left + 6; x + longest < left + length; x += every) {
     arrow_up(cairo, x, top + 4.9, 1.5);
-    text(cairo, x + 1.6, top + 6.5, 1.9, "casting edge: this side to the shadow", true);
-    arrow_up(cairo, x + 42, top + 4.9, 1.5);
+    const double end = text(cairo, x + 1.6, top + 6.5, 1.9, "casting edge: this side to the shadow", true);
+    arrow_up(cairo, end + 1.6, top + 4.9, 1.5);
   }
 }
 
