@@ -85,10 +85,10 @@ double Canvas::text_width(double size, bool bold, const std::string& words) {
   return extents.x_advance;
 }
 
-void Canvas::stroke(double x1, double y1, double x2, double y2, double width, const Ink& ink, double dash) {
+void Canvas::stroke(double x1, double y1, double x2, double y2, double width, const Ink& ink) {
   cairo_move_to(cairo_.get(), x1, y1);
   cairo_line_to(cairo_.get(), x2, y2);
-  draw_stroke(width, ink, dash);
+  draw_stroke(width, ink, 0);
 }
 
 }  // namespace aeolian

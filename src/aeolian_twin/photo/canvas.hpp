@@ -26,11 +26,16 @@ class Canvas {
   /// A triangle with a white rim, its point on `point`, its body towards `away` (unit vector).
   void pointer(const Eigen::Vector2d& point, const Eigen::Vector2d& away, double size, const Ink& ink);
 
+  /// The photo's pixel at a place of the picture.
+  Eigen::Vector2d pixel_at(double x, double y) const {
+    return Eigen::Vector2d(x, y) / scale_ - Eigen::Vector2d(0.5, 0.5);
+  }
+
   // In the picture's own pixels.
   void box(double x, double y, double width, double height, const Ink& ink);
   void text(double x, double baseline, double size, bool bold, const Ink& ink, const std::string& words);
   double text_width(double size, bool bold, const std::string& words);
-  void stroke(double x1, double y1, double x2, double y2, double width, const Ink& ink, double dash = 0);
+  void stroke(double x1, double y1, double x2, double y2, double width, const Ink& ink);
 
  private:
   void set(const Ink& ink);

@@ -35,13 +35,13 @@ double height_at(const EvenProfile& even, double place) {
   return even.z[i] + (at - left) * (even.z[i + 1] - even.z[i]);
 }
 
-std::string in_one_line(const ProfileAnalysis& analysis) {
+std::string in_one_line(const ProfileAnalysis& analysis, const std::string& between) {
   constexpr double to_mm = 1e3;
   if (analysis.ripples.empty())
-    return fmt::format("no ripples, roughness {} mm", stated(analysis.roughness, to_mm));
+    return fmt::format("no ripples, roughness {} mm", stated(analysis.roughness, to_mm, between));
   return fmt::format("{} ripple{}, wavelength {} mm, height {} mm, index {}", analysis.ripples.size(),
-                     analysis.ripples.size() == 1 ? "" : "s", stated(analysis.wavelength, to_mm),
-                     stated(analysis.height, to_mm), stated(analysis.index, 1));
+                     analysis.ripples.size() == 1 ? "" : "s", stated(analysis.wavelength, to_mm, between),
+                     stated(analysis.height, to_mm, between), stated(analysis.index, 1, between));
 }
 
 }  // namespace aeolian

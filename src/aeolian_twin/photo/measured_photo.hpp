@@ -25,7 +25,7 @@ std::vector<double> horizontal_places(const ShadowProfile& profile);
 double height_at(const EvenProfile& even, double place);
 
 /// What was measured in one line: "13 ripples, wavelength 72.7 +- 0.4 mm, height 4.9 +- 0.1 mm, index 14.8 +-
-/// 0.3".
-std::string in_one_line(const ProfileAnalysis& analysis);
+/// 0.3", with another sign of the error if wanted.
+std::string in_one_line(const ProfileAnalysis& analysis, const std::string& between = "+-");
 
 }  // namespace aeolian

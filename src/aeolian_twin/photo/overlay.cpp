@@ -41,10 +41,12 @@ class Overlay {
         scale_(scale),
         thin_(std::max(1.0, width_ / 1200.0)),
         font_(std::max(11.0, width_ / 95.0)) {
-    // Square to the edge, towards the shadow's end.
-    const Eigen::Vector2d along = (profile_.edge_px.back() - profile_.edge_px.front()).normalized();
+    // Square to the edge, or to the shadow's end where the edge is not told; away from the edge.
+    const std::vector<Eigen::Vector2d>& line =
+        profile_.edge_px.size() > 1 ? profile_.edge_px : profile_.terminus_px;
+    const Eigen::Vector2d along = (line.back() - line.front()).normalized();
     outwards_ = {-along.y(), along.x()};
-    if (outwards_.dot(mean(profile_.terminus_px) - mean(profile_.edge_px)) < 0) outwards_ = -outwards_;
+    if (outwards_.dot(mean(profile_.terminus_px) - mean(line)) < 0) outwards_ = -outwards_;
   }
 
   void draw() {
@@ -76,7 +78,7 @@ class Overlay {
       }
   }
 
-  /// 1.96 standard errors of the height, as the shadow's length shows them [px].
+  /// 1.96 standard errors of the height, as the shadow's length shows them [px of the photo].
   double half_interval(std::size_t station) const {
     return 1.96 * profile_.sigma_z[station] * profile_.scale.value * std::cos(profile_.azimuth.value) /
            std::tan(profile_.elevation.value);
@@ -121,9 +123,10 @@ class Overlay {
     const auto with = [](const Figure& figure, double factor) { return stated(figure, factor, "±"); };
     std::vector<std::string> lines;
     if (analysis.ripples.empty()) {
-      lines.push_back("no ripples");
+      lines.emplace_back("no ripples");
     } else {
-      lines.push_back(fmt::format("{} ripples: wavelength {} mm", analysis.ripples.size(),
+      lines.push_back(fmt::format("{} {}: wavelength {} mm", analysis.ripples.size(),
+                                  analysis.ripples.size() == 1 ? "ripple" : "ripples",
                                   with(analysis.wavelength, to_mm)));
       lines.push_back(
           fmt::format("height {} mm, index {}", with(analysis.height, to_mm), with(analysis.index, 1)));
@@ -139,28 +142,35 @@ class Overlay {
     return lines;
   }
 
+  /// A line of the legend.
+  struct Sign {
+    std::string words;
+    Ink ink;
+    bool pointer = false;
+  };
+  std::vector<Sign> signs() const {
+    std::vector<Sign> result;
+    if (!profile_.edge_px.empty()) result.push_back({"casting edge", edge_ink});
+    if (!profile_.band_px.empty()) result.push_back({"searched", band_ink});
+    result.push_back({"shadow's end, 95 %", terminus_ink});
+    if (!profile_.mark_px.empty()) result.push_back({"marks", mark_ink});
+    if (photo_.analysis.ripples.empty()) return result;
+    result.push_back({"crests", crest_ink, true});
+    result.push_back({"troughs", trough_ink, true});
+    return result;
+  }
+
   void draw_words() {
     const std::vector<std::string> lines = words();
-    struct Sign {
-      const char* words;
-      Ink ink;
-    };
-    std::vector<Sign> signs = {{"casting edge", edge_ink},
-                               {"searched", band_ink},
-                               {"shadow's end, 95 %", terminus_ink},
-                               {"marks", mark_ink}};
-    if (!photo_.analysis.ripples.empty()) {
-      signs.push_back({"crests", crest_ink});
-      signs.push_back({"troughs", trough_ink});
-    }
+    const std::vector<Sign> legend = signs();
     const double row = 1.45 * font_;
     const double margin = 0.8 * font_;
     double wide = canvas_.text_width(1.15 * font_, true, photo_.name);
     for (const std::string& line : lines) wide = std::max(wide, canvas_.text_width(font_, false, line));
-    const double high = row * (static_cast<double>(1 + lines.size() + signs.size()) + 0.4) + 2 * margin;
+    const double high = row * (static_cast<double>(1 + lines.size() + legend.size()) + 0.4) + 2 * margin;
     wide = std::min(wide + 2 * margin, static_cast<double>(width_));
     // In the corner that is farthest from what was measured.
-    const Eigen::Vector2d middle = scale_ * mean(profile_.band_px);
+    const Eigen::Vector2d middle = scale_ * mean(profile_.terminus_px);
     const double left = middle.x() < 0.5 * width_ ? width_ - wide - margin : margin;
     const double top = middle.y() < 0.5 * height_ ? height_ - high - margin : margin;
     canvas_.box(left, top, wide, high, paper);
@@ -169,10 +179,14 @@ class Overlay {
     for (const std::string& line : lines)
       canvas_.text(left + margin, baseline += row, font_, false, white, line);
     baseline += 0.4 * row;
-    for (const Sign& sign : signs) {
+    for (const Sign& sign : legend) {
       baseline += row;
       const double y = baseline - 0.35 * font_;
-      canvas_.stroke(left + margin, y, left + margin + 2 * font_, y, 0.25 * font_, sign.ink);
+      if (sign.pointer)
+        canvas_.pointer(canvas_.pixel_at(left + margin + font_, y - 0.55 * font_), {0, 1}, 0.8 * font_,
+                        sign.ink);
+      else
+        canvas_.stroke(left + margin, y, left + margin + 2 * font_, y, 0.2 * font_, sign.ink);
       canvas_.text(left + margin + 2.6 * font_, baseline, font_, false, white, sign.words);
     }
   }

@@ -92,16 +92,16 @@ void plot_profile(const MeasuredPhoto& photo, const std::string& path) {
   script << "set multiplot\n"
          << "set label 1 " << quoted(photo.name) << " at screen " << left
          << ", screen 0.965 left noenhanced font ',17' textcolor rgb measured\n"
-         << "set label 2 " << quoted(in_one_line(analysis)) << " at screen " << left
+         << "set label 2 " << quoted(in_one_line(analysis, "±")) << " at screen " << left
          << ", screen 0.918 left noenhanced textcolor rgb '#6b6058'\n"
-         << "set label 3 " << quoted(fmt::format("heights drawn {:.2g} times", exaggeration))
+         << "set label 3 " << quoted(fmt::format("heights {:.2g} times exaggerated", exaggeration))
          << " at graph 0.995, graph 0.05 right textcolor rgb baseline\n"
          << fmt::format("set xrange [{}:{}]\n", x.low, x.high) << panel_place(left, right, top, bottom)
          << fmt::format("set yrange [{}:{}]\nset ytics {}\n", z.low, z.high, tic_step(z.width()))
          << "set format x ''\nset ylabel 'height [mm]' offset 0.5\n"
          << "set key at screen " << right << ", screen 0.968 right top horizontal samplen 2\n"
          << "plot $profile using 1:3:4 with filledcurves fc rgb '#f0cfa8' title '95 %', \\\n"
-         << "  $stations using 1:2 with points pt 7 ps 0.12 lc rgb baseline title 'as found', \\\n"
+         << "  $stations using 1:2 with points pt 7 ps 0.28 lc rgb '#c08a50' title 'as found', \\\n"
          << "  $profile using 1:2 with lines lw 1.8 lc rgb measured title 'smoothed'";
   if (!analysis.ripples.empty())
     script
