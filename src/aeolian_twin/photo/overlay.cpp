@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -40,7 +41,7 @@ class Overlay {
         height_(picture.rows),
         scale_(scale),
         thin_(std::max(1.0, width_ / 1200.0)),
-        font_(std::max(11.0, width_ / 95.0)) {
+        font_(std::max(11.0, std::min(width_ / 95.0, height_ / 52.0))) {
     // Square to the edge, or to the shadow's end where the edge is not told; away from the edge.
     const std::vector<Eigen::Vector2d>& line =
         profile_.edge_px.size() > 1 ? profile_.edge_px : profile_.terminus_px;
@@ -160,6 +161,28 @@ class Overlay {
     return result;
   }
 
+  /// The upper left corner of a box in that corner of the picture where it hides least.
+  Eigen::Vector2d free_corner(double wide, double high) const {
+    Eigen::Vector2d best(0, 0);
+    std::ptrdiff_t least = PTRDIFF_MAX;
+    for (const double top : {0.0, height_ - high})
+      for (const double left : {0.0, width_ - wide}) {
+        const auto hidden = [&](const Eigen::Vector2d& point) {
+          const Eigen::Vector2d p = scale_ * point - Eigen::Vector2d(left, top);
+          return p.x() > 0 && p.x() < wide && p.y() > 0 && p.y() < high;
+        };
+        std::ptrdiff_t count = 0;
+        for (const auto* points :
+             {&profile_.terminus_px, &profile_.edge_px, &profile_.mark_px, &profile_.band_px})
+          count += std::count_if(points->begin(), points->end(), hidden);
+        if (count < least) {
+          least = count;
+          best = {left, top};
+        }
+      }
+    return best;
+  }
+
   void draw_words() {
     const std::vector<std::string> lines = words();
     const std::vector<Sign> legend = signs();
@@ -169,10 +192,9 @@ class Overlay {
     for (const std::string& line : lines) wide = std::max(wide, canvas_.text_width(font_, false, line));
     const double high = row * (static_cast<double>(1 + lines.size() + legend.size()) + 0.4) + 2 * margin;
     wide = std::min(wide + 2 * margin, static_cast<double>(width_));
-    // In the corner that is farthest from what was measured.
-    const Eigen::Vector2d middle = scale_ * mean(profile_.terminus_px);
-    const double left = middle.x() < 0.5 * width_ ? width_ - wide - margin : margin;
-    const double top = middle.y() < 0.5 * height_ ? height_ - high - margin : margin;
+    const Eigen::Vector2d corner = free_corner(wide + 2 * margin, high + 2 * margin);
+    const double left = corner.x() + margin;
+    const double top = corner.y() + margin;
     canvas_.box(left, top, wide, high, paper);
     double baseline = top + margin + font_;
     canvas_.text(left + margin, baseline, 1.15 * font_, true, white, photo_.name);

@@ -125,6 +125,7 @@ void write_series_summary(const MeasuredSeries& series, const std::string& path)
   put(out, "photos", series.photos.size());
   if (!series.remark.empty()) put(out, "remark", series.remark);
   if (series.change) {
+    put(out, "migration_direction", migration_direction(series));
     put_figure(out, "migration", "mm_per_min", series.change->migration, to_mm_per_minute);
     put_figure(out, "growth", "mm_per_min", series.change->growth, to_mm_per_minute);
     out << YAML::Key << "events" << YAML::Value << YAML::BeginSeq;
@@ -141,11 +142,15 @@ void write_series_summary(const MeasuredSeries& series, const std::string& path)
   write_text_atomically(path, std::string(out.c_str()) + "\n");
 }
 
+std::string migration_direction(const MeasuredSeries& series) {
+  return series.photos.front().analysis.downwind_known ? "downwind" : "towards the steeper flanks";
+}
+
 std::string in_one_line(const MeasuredSeries& series) {
   std::string text = count_of(series.photos.size(), "photo");
   if (series.change) {
-    text += fmt::format(", migration {} mm/min downwind, growth {} mm/min",
-                        stated(series.change->migration, to_mm_per_minute),
+    text += fmt::format(", migration {} mm/min {}, growth {} mm/min",
+                        stated(series.change->migration, to_mm_per_minute), migration_direction(series),
                         stated(series.change->growth, to_mm_per_minute));
     std::map<std::string, std::size_t> counts;
     for (const ProfileSeries::Event& event : series.change->events) ++counts[name_of(event.kind)];

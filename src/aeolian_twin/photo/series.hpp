@@ -29,6 +29,9 @@ void write_series_summary(const MeasuredSeries& series, const std::string& path)
 /// file.
 void plot_series(const MeasuredSeries& series, const std::string& path);
 
+/// "downwind", or what stands for it when the wind is not known.
+std::string migration_direction(const MeasuredSeries& series);
+
 /// The series in one line: "12 photos, migration 0.31 +- 0.02 mm/s downwind, growth ..., 2 mergers".
 std::string in_one_line(const MeasuredSeries& series);
 

@@ -28,9 +28,12 @@ Curve level_curve(const EvenProfile& even) {
 
 /// The label of a line of the waterfall: the time since the first photo, or the photo's name.
 std::string label_of(const MeasuredSeries& series, std::size_t photo) {
-  if (!series.photos.front().time) return series.photos[photo].name;
-  const double seconds = *series.photos[photo].time - *series.photos.front().time;
-  return seconds < 600 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1f} min", seconds / 60);
+  if (!series.photos.front().time || !series.photos.back().time) return series.photos[photo].name;
+  const double start = *series.photos.front().time;
+  const double seconds = *series.photos[photo].time - start;
+  constexpr double long_series = 300;
+  return *series.photos.back().time - start < long_series ? fmt::format("{:.0f} s", seconds)
+                                                          : fmt::format("{:.1f} min", seconds / 60);
 }
 
 void write_waterfall(std::ostream& out, const MeasuredSeries& series, double bottom) {
@@ -69,7 +72,7 @@ void write_waterfall(std::ostream& out, const MeasuredSeries& series, double bot
       << plot << "\nunset label\n";
 }
 
-void write_migration(std::ostream& out, const ProfileSeries& change) {
+void write_migration(std::ostream& out, const ProfileSeries& change, const std::string& direction) {
   Curve speed;
   std::vector<double> ends;
   for (const ProfileSeries::Step& step : change.steps) {
@@ -88,7 +91,8 @@ void write_migration(std::ostream& out, const ProfileSeries& change) {
       << fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics {}\n", std::min(0.0, x.low), x.high,
                      y.low, y.high, tic_step(y.width()))
       << "set xlabel 'time since the first photo [min]'\nset ylabel 'mm/min'\nset grid y\n"
-      << "set label 1 'Migration downwind, 95 %' at graph 0, graph 1.12 left textcolor rgb measured\n"
+      << "set label 1 'Migration " << direction
+      << ", 95 %' at graph 0, graph 1.12 left textcolor rgb measured\n"
       << "plot $speed using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lw 1.3 lc rgb forecast notitle\n";
 }
 
@@ -99,7 +103,7 @@ void plot_series(const MeasuredSeries& series, const std::string& path) {
   std::ostringstream script;
   script << plot_style << "set multiplot\n";
   write_waterfall(script, series, rates ? 0.38 : 0.08);
-  if (rates) write_migration(script, *series.change);
+  if (rates) write_migration(script, *series.change, migration_direction(series));
   script << "unset multiplot\n";
   plot_svg(script.str(), 1000, rates ? 900 : 700, path);
 }
