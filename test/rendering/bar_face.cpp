@@ -1,6 +1,7 @@
 #include "bar_face.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <opencv2/aruco.hpp>
@@ -64,6 +65,27 @@ double BarFace::albedo(const Eigen::Vector2d& point) const {
   const int modules = marker.modules.rows;
   const int row = std::min(static_cast<int>((1 - at.y()) * modules), modules - 1);
   return marker.modules.at<std::uint8_t>(row, static_cast<int>(at.x() * modules)) > 0 ? paper : ink;
+}
+
+bool BarFace::plain(const Eigen::Vector2d& point, double reach) const {
+  const auto next_tick = std::lower_bound(ticks_.begin(), ticks_.end(), point.x() - tick_radius - reach,
+                                          [](const Eigen::Vector2d& tick, double x) { return tick.x() < x; });
+  if (next_tick != ticks_.end() && next_tick->x() < point.x() + tick_radius + reach) return false;
+  if (printed_.empty()) return true;
+  if ((point - strip_.min()).cwiseAbs().minCoeff() < reach) return false;
+  if ((point - strip_.max()).cwiseAbs().minCoeff() < reach) return false;
+  if (!strip_.contains(point)) return true;
+  const auto next = std::upper_bound(printed_.begin(), printed_.end(), point.x(),
+                                     [](double x, const Printed& p) { return x < p.corner.x(); });
+  const auto near_line = [&](const Printed& marker) {
+    const double module = size_ / marker.modules.rows;
+    const Eigen::Vector2d at = (point - marker.corner) / module;
+    if ((at.array() < -0.5).any() || (at.array() > marker.modules.rows + 0.5).any()) return false;
+    const Eigen::Vector2d line{std::round(at.x()), std::round(at.y())};
+    return (at - line).cwiseAbs().minCoeff() * module < reach;
+  };
+  if (next != printed_.end() && near_line(*next)) return false;
+  return next == printed_.begin() || !near_line(*std::prev(next));
 }
 
 }  // namespace aeolian

@@ -16,6 +16,9 @@ class BarFace {
   /// Albedo at a point of the face [m].
   double albedo(const Eigen::Vector2d& point) const;
 
+  /// Whether the albedo is surely the same within `reach` of a point.
+  bool plain(const Eigen::Vector2d& point, double reach) const;
+
   static constexpr double metal = 0.24;
 
  private:

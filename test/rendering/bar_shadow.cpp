@@ -20,40 +20,33 @@ BarShadow::BarShadow(const ShadowScene& scene)
 
 BarShadow::Sky BarShadow::sky(const Eigen::Vector3d& point) const {
   Sky sky;
-  const auto span = [](const std::array<Eigen::Vector2d, 4>& corners) {
-    const auto [least, most] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x(), corners[3].x()});
-    return (most - least) / 2;  // view factor of an endless strip
+  const Eigen::Vector3d low = low_ - point;
+  const Eigen::Vector3d high = high_ - point;
+  const Eigen::Array4d up{low.z(), high.z(), low.z(), high.z()};
+  const auto section = [&up](double near, double far, Sky::Section* s) {
+    const Eigen::Array4d sideways{near, near, far, far};
+    const Eigen::Array4d inverse = (sideways * sideways + up * up).max(1e-18).sqrt().inverse();
+    s->sideways = sideways * inverse;
+    s->up = up * inverse;
+    return inverse;
   };
-  double nearest = 1e9;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double z = (i & 1U ? high_.z() : low_.z()) - point.z();
-    const Eigen::Vector2d across{(i & 2U ? high_.y() : low_.y()) - point.y(), z};
-    const double distance = std::max(across.norm(), 1e-9);
-    nearest = std::min(nearest, distance);
-    sky.corners[i] = across / distance;
-    sky.ends[i] = Eigen::Vector2d((i & 2U ? high_.x() : low_.x()) - point.x(), z);
-    sky.ends[i] /= std::max(sky.ends[i].norm(), 1e-9);
-  }
-  sky.nearest = nearest;
-  sky.blocked_skylight = span(sky.corners) * span(sky.ends);
+  sky.nearest = 1 / section(low.y(), high.y(), &sky.across).maxCoeff();
+  section(low.x(), high.x(), &sky.along);
+  // The view factor of an endless strip, in both directions.
+  sky.blocked_skylight = (sky.across.sideways.maxCoeff() - sky.across.sideways.minCoeff()) *
+                         (sky.along.sideways.maxCoeff() - sky.along.sideways.minCoeff()) / 4;
   return sky;
 }
 
-BarShadow::Past BarShadow::past(const std::array<Eigen::Vector2d, 4>& corners, const Eigen::Vector2d& light) {
-  // The third component of to_light lies along the edge and has no part in the angle to a plane through it.
-  double least = 1;
-  double most = -1;
-  for (const Eigen::Vector2d& corner : corners) {
-    const double side = corner.x() * light.y() - corner.y() * light.x();
-    least = std::min(least, side);
-    most = std::max(most, side);
-  }
-  return {least, -most};
+BarShadow::Past BarShadow::past(const Sky::Section& section, double light_sideways, double light_up) {
+  // The third component of the light lies along the edge and has no part in the angle to a plane through it.
+  const Eigen::Array4d side = section.sideways * light_up - section.up * light_sideways;
+  return {side.minCoeff(), -side.maxCoeff()};
 }
 
 BarShadow::Angles BarShadow::angles(const Sky& sky, const Eigen::Vector3d& to_light) const {
-  const Past across = past(sky.corners, {to_light.y(), to_light.z()});
-  const Past along = past(sky.ends, {to_light.x(), to_light.z()});
+  const Past across = past(sky.across, to_light.y(), to_light.z());
+  const Past along = past(sky.along, to_light.x(), to_light.z());
   return {std::max(across.over, across.under), std::max(along.over, along.under)};
 }
 
@@ -61,9 +54,9 @@ double BarShadow::seen_past_box(const Sky& sky, const Eigen::Vector3d& to_light)
   const auto blocked = [this](const Past& p) {
     return std::max(0.0, 1 - disc_below(std::asin(p.over) / disc_) - disc_below(std::asin(p.under) / disc_));
   };
-  const double across = blocked(past(sky.corners, {to_light.y(), to_light.z()}));
+  const double across = blocked(past(sky.across, to_light.y(), to_light.z()));
   if (across == 0) return 1;
-  return 1 - across * blocked(past(sky.ends, {to_light.x(), to_light.z()}));
+  return 1 - across * blocked(past(sky.along, to_light.x(), to_light.z()));
 }
 
 double BarShadow::seen_past_post(const Eigen::Vector3d& point, const Eigen::Vector3d& to_light) const {

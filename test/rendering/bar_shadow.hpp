@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "shadow_scene.hpp"
 #include <Eigen/Geometry>
 
@@ -19,10 +17,14 @@ class BarShadow {
   /// How the box stands in the sky over a point. Seen from there along the box, its section is four corners;
   /// what counts is the angle between the light and the planes through the point and the long edges.
   struct Sky {
-    std::array<Eigen::Vector2d, 4> corners;  ///< unit vectors to the section's corners, in (y, z)
-    std::array<Eigen::Vector2d, 4> ends;     ///< the same for the section along the box, in (x, z)
-    double nearest = 0;                      ///< distance to the nearest corner [m]
-    double blocked_skylight = 0;             ///< share of the sky's light that the box keeps away
+    struct Section {  ///< unit vectors to its corners
+      Eigen::Array4d sideways;
+      Eigen::Array4d up;
+    };
+    Section across;               ///< in (y, z)
+    Section along;                ///< in (x, z)
+    double nearest = 0;           ///< distance to the nearest corner [m]
+    double blocked_skylight = 0;  ///< share of the sky's light that the box keeps away
   };
   Sky sky(const Eigen::Vector3d& point) const;
 
@@ -49,7 +51,7 @@ class BarShadow {
     double over;
     double under;
   };
-  static Past past(const std::array<Eigen::Vector2d, 4>& corners, const Eigen::Vector2d& to_light);
+  static Past past(const Sky::Section& section, double light_sideways, double light_up);
 
   Eigen::Vector3d low_;  // corners of the box
   Eigen::Vector3d high_;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace aeolian {
@@ -17,20 +15,19 @@ class GrainTexture {
     double y = 0;
   };
 
-  GrainTexture(double diameter, std::uint64_t seed) : diameter_(diameter), seed_(mix(seed + 1)) {}
+  GrainTexture(double diameter, std::uint64_t seed) : per_diameter_(1 / diameter), seed_(mix(seed + 1)) {}
 
   Grain at(double x, double y) const {
-    const double row = y / diameter_;
-    const auto j0 = static_cast<std::int64_t>(std::floor(row - 0.5));
+    const double row = y * per_diameter_;
+    const std::int64_t j0 = floor(row - 0.5);
     Grain grain;
     double nearest = 1e9;
     std::uint64_t bits = 0;
     for (std::int64_t j = j0; j <= j0 + 1; ++j) {
-      const double column = x / diameter_ - ((j & 1) != 0 ? 0.5 : 0.0);
-      const auto i0 = static_cast<std::int64_t>(std::floor(column - 0.5));
+      const double column = x * per_diameter_ - ((j & 1) != 0 ? 0.5 : 0.0);
+      const std::int64_t i0 = floor(column - 0.5);
       for (std::int64_t i = i0; i <= i0 + 1; ++i) {
-        const std::uint64_t cell = mix((static_cast<std::uint64_t>(i) << 32U) ^
-                                       (static_cast<std::uint64_t>(j) & 0xFFFFFFFFU) ^ seed_);
+        const std::uint64_t cell = bits_of(i, j);
         const double dx = column - (static_cast<double>(i) + 0.3 + fraction(cell, 0));
         const double dy = row - (static_cast<double>(j) + 0.3 + fraction(cell, 16));
         const double distance = dx * dx + dy * dy;
@@ -45,6 +42,14 @@ class GrainTexture {
     grain.albedo = normal(mix(bits + 1));
     grain.height = normal(mix(bits + 2));
     return grain;
+  }
+
+  /// The same bed where grains are about a pixel or less and their outlines do not count.
+  Grain shapeless_at(double x, double y) const {
+    const std::int64_t j = floor(y * per_diameter_);
+    const std::int64_t i = floor(x * per_diameter_ - ((j & 1) != 0 ? 0.5 : 0.0));
+    const std::uint64_t bits = bits_of(i, j);
+    return {normal(mix(bits + 1)), normal(mix(bits + 2)), 0, 0};
   }
 
   /// The finaliser of MurmurHash3 (Appleby 2011).
@@ -63,11 +68,19 @@ class GrainTexture {
   }
 
  private:
+  std::uint64_t bits_of(std::int64_t i, std::int64_t j) const {
+    return mix((static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xFFFFFFFFU) ^
+               seed_);
+  }
+  static std::int64_t floor(double v) {  // std::floor is a call on the baseline processor
+    const auto towards_zero = static_cast<std::int64_t>(v);
+    return towards_zero - (v < static_cast<double>(towards_zero) ? 1 : 0);
+  }
   static double fraction(std::uint64_t bits, unsigned shift) {
     return static_cast<double>((bits >> shift) & 0xFFFFU) * (0.4 / 65536);
   }
 
-  double diameter_;
+  double per_diameter_;
   std::uint64_t seed_;
 };
 

@@ -20,6 +20,7 @@ namespace aeolian {
 
 namespace {
 
+constexpr int edge_samples = 16;        // of a pixel that a border may cross
 constexpr double least_descent = 0.05;  // of a ray that reaches the bed, per length; flatter ones see none
 
 struct Light {
@@ -39,19 +40,37 @@ class Caster {
     Eigen::Vector3d point;   // on the smooth bed
     Eigen::Vector3d normal;  // (-slope x, -slope y, 1)
   };
+  struct Facet {  // the bed in a pixel, as plane and as lit
+    Hit hit;
+    double over;  // normal . (point - eye)
+    BarShadow::Sky sky;
+    double skylight;
+    double direct[2] = {};  // of each light, unshadowed
+  };
   struct Pixel {
     Eigen::Vector3d ray;     // level frame
     Eigen::Vector3d across;  // change of the ray from pixel to pixel
     Eigen::Vector3d down;
+
+    /// One of `edge_samples` rays: stratified over the pixel, and no two of them in line with its sides, so
+    /// that a border along rows or columns is placed as well as any other.
+    Eigen::Vector3d sample(int i) const {
+      const int column = i % 4;
+      const int row = i / 4;
+      return ray + ((column + (row + 0.5) / 4) / 4 - 0.5) * across +
+             ((row + (column + 0.5) / 4) / 4 - 0.5) * down;
+    }
   };
 
   void cast_row(int row, float* out) const;
   Hit meet_bed(const Eigen::Vector3d& ray, double guess) const;
   double bed_light(const Pixel& pixel, const Hit& hit) const;
-  double grain_light(const Eigen::Vector3d& ray, const Hit& hit, const BarShadow::Sky& sky,
-                     const double* direct, bool at_border) const;
+  Facet facet(const Hit& hit) const;
+  double grain_light(const Eigen::Vector3d& ray, const Facet& facet, bool at_border) const;
+  double relief(const GrainTexture::Grain& grain, const Light& light) const;
   bool meets_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, double margin, double* distance,
                  int* face) const;
+  bool inside_plain_face(const Eigen::Vector3d& ray, double margin) const;
   double box_light(const Eigen::Vector3d& point, int face) const;
   bool meets_post(const Eigen::Vector3d& ray, double* light) const;
   bool nears_post(const Eigen::Vector3d& ray, double margin) const;
@@ -68,6 +87,7 @@ class Caster {
   BarShadow shadow_;
   BarFace face_;
   GrainTexture grains_;
+  bool fine_grains_;  // large enough for their shape to be seen
   std::vector<Light> lights_;
   double level_light_;  // direct light on level ground over its part along the ray
   BedTable bed_;
@@ -85,6 +105,7 @@ Caster::Caster(const ShadowScene& scene)
       shadow_(scene),
       face_(scene),
       grains_(scene.grain_diameter, scene.seed),
+      fine_grains_(scene.grain_diameter > 1.4 * eye_.z() / scene.camera.fx),
       level_light_((1 - scene.skylight) / std::sin(scene.elevation)),
       bed_(scene.bed, seen_area(), table_spacing(seen_area())) {
   std::vector<double> azimuths{scene.azimuth};
@@ -157,6 +178,14 @@ bool Caster::meets_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray
   return enter < leave;
 }
 
+/// Whether all of a pixel is one plain piece of the top face, so that one ray tells its light.
+bool Caster::inside_plain_face(const Eigen::Vector3d& ray, double margin) const {
+  const Eigen::Vector2d at = (eye_straightedge_ - ray * (eye_straightedge_.z() / ray.z())).head<2>();
+  const Eigen::Vector2d border{margin, margin};
+  return (at - border - box_.min().head<2>()).minCoeff() > 0 &&
+         (box_.max().head<2>() - at - border).minCoeff() > 0 && face_.plain(at, margin);
+}
+
 double Caster::box_light(const Eigen::Vector3d& point, int face) const {
   const double side = point[face] * 2 > box_.min()[face] + box_.max()[face] ? 1 : -1;
   double direct = 0;
@@ -205,59 +234,75 @@ bool Caster::nears_post(const Eigen::Vector3d& ray, double margin) const {
   return high > -margin && low < *scene_.post_height + margin;
 }
 
-double Caster::grain_light(const Eigen::Vector3d& ray, const Hit& hit, const BarShadow::Sky& sky,
-                           const double* direct, bool at_border) const {
-  const double along = hit.normal.dot(ray);
-  const double smooth = hit.normal.dot(hit.point - eye_) / along;
-  Eigen::Vector3d point = eye_ + smooth * ray;
-  const GrainTexture::Grain grain = grains_.at(point.x(), point.y());
+Caster::Facet Caster::facet(const Hit& hit) const {
+  Facet facet;
+  facet.hit = hit;
+  facet.sky = shadow_.sky(to_straightedge_ * hit.point);
+  facet.skylight = scene_.skylight * (1 - facet.sky.blocked_skylight);
+  facet.over = hit.normal.dot(hit.point - eye_);
+  const double size = hit.normal.norm();
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    facet.direct[i] =
+        lights_[i].strength * level_light_ * std::max(0.0, hit.normal.dot(lights_[i].level)) / size;
+  }
+  return facet;
+}
+
+double Caster::grain_light(const Eigen::Vector3d& ray, const Facet& facet, bool at_border) const {
+  const double inverse = 1 / facet.hit.normal.dot(ray);
+  Eigen::Vector3d point = eye_ + facet.over * inverse * ray;
+  const GrainTexture::Grain grain =
+      fine_grains_ ? grains_.at(point.x(), point.y()) : grains_.shapeless_at(point.x(), point.y());
   const double albedo = std::max(0.1, 1 + scene_.albedo_contrast * grain.albedo);
   const double height = std::clamp(scene_.roughness * grain.height, -0.5, 0.5);
-  double light = scene_.skylight * (1 - sky.blocked_skylight) * (1 + 0.15 * height);
-  point += height * scene_.grain_diameter / along * ray;
-  const Eigen::Vector3d in_straightedge = to_straightedge_ * point;
-  const BarShadow::Sky here = at_border ? shadow_.sky(in_straightedge) : sky;
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    double seen = direct[i];
-    if (at_border) {
-      seen = shadow_.seen_past_box(here, lights_[i].straightedge) *
-             shadow_.seen_past_post(in_straightedge, lights_[i].straightedge);
+  double light = facet.skylight * (1 + 0.15 * height);
+  if (at_border) {
+    point += height * scene_.grain_diameter * inverse * ray;
+    const Eigen::Vector3d in_straightedge = to_straightedge_ * point;
+    const BarShadow::Sky here = shadow_.sky(in_straightedge);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      light += facet.direct[i] * relief(grain, lights_[i]) *
+               shadow_.seen_past_box(here, lights_[i].straightedge) *
+               shadow_.seen_past_post(in_straightedge, lights_[i].straightedge);
     }
-    if (seen <= 0) continue;
-    const Eigen::Vector3d& to = lights_[i].level;
-    // A grain is brighter on the side that faces the light.
-    const double relief = 1 + 0.6 * scene_.roughness * (grain.x * to.x() + grain.y * to.y());
-    const double facing = std::max(0.0, hit.normal.dot(to)) / hit.normal.norm();
-    light += seen * lights_[i].strength * level_light_ * facing * relief;
+  } else {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      if (facet.direct[i] > 0) light += facet.direct[i] * relief(grain, lights_[i]);
+    }
   }
   return albedo * light;
 }
 
+double Caster::relief(const GrainTexture::Grain& grain, const Light& light) const {
+  // A grain is brighter on the side that faces the light.
+  return 1 + 0.6 * scene_.roughness * (grain.x * light.level.x() + grain.y * light.level.y());
+}
+
 double Caster::bed_light(const Pixel& pixel, const Hit& hit) const {
+  Facet lit = facet(hit);
   const Eigen::Vector3d in_straightedge = to_straightedge_ * hit.point;
-  const BarShadow::Sky sky = shadow_.sky(in_straightedge);
   const double pixel_size = (hit.point - eye_).norm() * pixel.across.norm();
   const double reach = 2 * (pixel_size + scene_.grain_diameter * std::min(1.0, 4 * scene_.roughness));
-  const double margin = scene_.sun_diameter / 2 + 1e-6 + reach / sky.nearest;
+  const double margin = scene_.sun_diameter / 2 + 1e-6 + reach / lit.sky.nearest;
   bool at_border = false;
-  double direct[2] = {1, 1};
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const BarShadow::Angles angles = shadow_.angles(sky, lights_[i].straightedge);
-    const double nearer = std::max(angles.past_edge, angles.past_end);
-    if (std::abs(nearer) < margin) at_border = true;
-    direct[i] = nearer > 0 ? 1 : 0;
-    if (scene_.post_height && direct[i] > 0 &&
-        shadow_.near_post(in_straightedge, lights_[i].straightedge, reach)) {
-      at_border = true;
-    }
+  for (std::size_t i = 0; i < lights_.size() && !at_border; ++i) {
+    const BarShadow::Angles angles = shadow_.angles(lit.sky, lights_[i].straightedge);
+    const double past = std::max(angles.past_edge, angles.past_end);
+    at_border = std::abs(past) < margin ||
+                (past > 0 && shadow_.near_post(in_straightedge, lights_[i].straightedge, reach));
+    if (past < 0 && !at_border) lit.direct[i] = 0;
   }
-  if (!at_border && pixel_size < 0.4 * scene_.grain_diameter) {
-    return grain_light(pixel.ray, hit, sky, direct, false);
+  if (at_border) {
+    lit = facet(hit);
+    double sum = 0;
+    for (int i = 0; i < edge_samples; ++i) sum += grain_light(pixel.sample(i), lit, true);
+    return sum / edge_samples;
   }
+  if (pixel_size < 0.6 * scene_.grain_diameter) return grain_light(pixel.ray, lit, false);
   double sum = 0;
   for (const double right : {-0.25, 0.25}) {
     for (const double below : {-0.25, 0.25}) {
-      sum += grain_light(pixel.ray + right * pixel.across + below * pixel.down, hit, sky, direct, at_border);
+      sum += grain_light(pixel.ray + right * pixel.across + below * pixel.down, lit, false);
     }
   }
   return sum / 4;
@@ -286,11 +331,12 @@ void Caster::cast_row(int row, float* out) const {
     const double footprint = 2 * pixel.across.norm() * std::max(eye_straightedge_.norm(), eye_.z());
     double light = 0;
     const bool near_post = scene_.post_height && nears_post(pixel.ray, footprint);
-    if (meets_box(eye_straightedge_, ray_straightedge, footprint, &distance, &face) || near_post) {
-      constexpr int fine = 4;
-      for (int sample = 0; sample < fine * fine; ++sample) {
-        const Eigen::Vector3d ray = pixel.ray + ((sample % fine + 0.5) / fine - 0.5) * pixel.across +
-                                    ((sample / fine + 0.5) / fine - 0.5) * pixel.down;
+    if (!near_post && inside_plain_face(ray_straightedge, footprint)) {
+      meets_box(eye_straightedge_, ray_straightedge, 0, &distance, &face);
+      light = box_light(eye_straightedge_ + distance * ray_straightedge, face);
+    } else if (near_post || meets_box(eye_straightedge_, ray_straightedge, footprint, &distance, &face)) {
+      for (int sample = 0; sample < edge_samples; ++sample) {
+        const Eigen::Vector3d ray = pixel.sample(sample);
         double sampled = 0;
         const Eigen::Vector3d turned = to_straightedge_ * ray;
         if (meets_post(ray, &sampled)) {
@@ -298,12 +344,10 @@ void Caster::cast_row(int row, float* out) const {
         } else if (meets_box(eye_straightedge_, turned, 0, &distance, &face)) {
           light += box_light(eye_straightedge_ + distance * turned, face);
         } else if (sees_bed) {
-          const BarShadow::Sky sky = shadow_.sky(to_straightedge_ * hit.point);
-          const double unused[2] = {0, 0};
-          light += grain_light(ray, hit, sky, unused, true);
+          light += grain_light(ray, facet(hit), true);
         }
       }
-      light /= fine * fine;
+      light /= edge_samples;
     } else {
       light = sees_bed ? bed_light(pixel, hit) : 1.0;
     }

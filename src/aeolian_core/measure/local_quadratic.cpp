@@ -26,16 +26,16 @@ void pass(const std::vector<double>& x, const std::vector<double>& y, double hal
     for (std::size_t i = begin; i < end; ++i) {
       const double t = (x[i] - x[k]) / half_width;
       const double tricube = std::pow(1 - std::abs(t * t * t), 3);
-      const double weight = tricube * result.robust_weight[i];
+      const double weight = std::isnan(y[i]) ? 0 : tricube * result.robust_weight[i];
       if (weight > 0) ++used;
       weights[i - begin] = weight;
       const Eigen::Vector3d row(1, t, t * t);
       normal += weight * row * row.transpose();
-      right += weight * y[i] * row;
+      if (weight > 0) right += weight * y[i] * row;
     }
     result.fit[k] = result.slope[k] = nan;
     result.noise_gain[k] = result.leverage[k] = nan;
-    if (used < 5) continue;
+    if (used < 5 || std::isnan(y[k])) continue;
     const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
     const Eigen::Vector3d coefficients = solver.solve(right);
     const Eigen::Vector3d own = solver.solve(Eigen::Vector3d::UnitX());
@@ -67,13 +67,13 @@ LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<d
     if (round == 2) break;
     misses.clear();
     for (std::size_t i = 0; i < n; ++i)
-      if (!std::isnan(result.fit[i])) misses.push_back(std::abs(y[i] - result.fit[i]));
+      if (!std::isnan(result.fit[i]) && !std::isnan(y[i])) misses.push_back(std::abs(y[i] - result.fit[i]));
     if (misses.empty()) break;
     const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
     std::nth_element(misses.begin(), middle, misses.end());
     const double limit = 6 * *middle;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = std::isnan(result.fit[i]) || limit == 0 ? 0 : (y[i] - result.fit[i]) / limit;
+      const double t = std::isnan(result.fit[i]) || std::isnan(y[i]) || limit == 0 ? 0 : (y[i] - result.fit[i]) / limit;
       result.robust_weight[i] = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
     }
   }

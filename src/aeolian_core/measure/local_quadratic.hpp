@@ -14,7 +14,7 @@ struct LocalQuadratic {
 };
 
 /// Values within `half_width` of a place count, with tricube weights; outliers (beyond six median deviations)
-/// not at all. A place with fewer than five neighbours keeps NaN.
+/// not at all, nor do NaN. A place with fewer than five neighbours keeps NaN.
 LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<double>& y, double half_width);
 
 }  // namespace aeolian

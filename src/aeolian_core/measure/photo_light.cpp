@@ -15,6 +15,12 @@ namespace {
 constexpr double degree = M_PI / 180;
 constexpr double lowest = 3 * degree;
 constexpr double highest = 85 * degree;
+constexpr double angle_sigma = 0.1 * degree;  // of given angles
+constexpr double sun_sigma = 0.02 * degree;   // of the sun's elevation: refraction near the horizon
+constexpr double north_sigma = 0.5 * degree;  // of a direction drawn on the photo
+constexpr double pixel_sigma = 0.3;           // of a post's pixels
+constexpr double crest_turn = 10 * degree;    // of the crests against the normal of the edge
+constexpr double cross_slope = 0.01;          // of the bed along the crests
 
 const Light& checked(const Light& light, const char* source) {
   if (!(light.elevation >= lowest && light.elevation <= highest))
@@ -36,16 +42,14 @@ Light along(const Eigen::Vector3d& travel, int side) {
   return light;
 }
 
-Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, int side,
-               const std::vector<Eigen::Vector2d>& terminus) {
+Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, const PhotoLight& source) {
   const SunPosition position = sun_position(sun.unix_time, sun.latitude, sun.longitude);
-  const Eigen::Vector2d here = terminus[terminus.size() / 2];
-  const Eigen::Vector2d there = here + 50 * sun.north_px.normalized();
-  const Eigen::Vector3d north = geometry.at_level(there, 0) - geometry.at_level(here, 0);
+  const Eigen::Vector2d step = sun.north_px.normalized();
+  const Eigen::Vector3d north = geometry.at_level(source.middle_px + step, 0) - geometry.at_level(source.middle_px - step, 0);
   // Clockwise from north is the negative sense of the level frame.
   const double travel = std::atan2(north.y(), north.x()) - (position.azimuth + M_PI);
   const double c = std::cos(position.elevation);
-  return along({c * std::cos(travel), c * std::sin(travel), -std::sin(position.elevation)}, side);
+  return along({c * std::cos(travel), c * std::sin(travel), -std::sin(position.elevation)}, source.side);
 }
 
 /// Height of the bed at x [m] after the shadow's end, under a light.
@@ -66,23 +70,25 @@ double bed_height(const PhotoGeometry& geometry, const Light& light, const std::
   return heights[heights.size() / 2];
 }
 
-Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, int side,
-                const std::vector<Eigen::Vector2d>& terminus) {
-  const double base = geometry.top_face(post.base_px).x();
+Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, const PhotoLight& source,
+                const LightDoubt& doubt) {
+  const double base = geometry.top_face(post.base_px + doubt.base_px).x();
+  const Eigen::Vector2d tip_px = post.tip_px + doubt.tip_px;
   const Eigen::Vector3d square(-std::sin(geometry.inclination()), 0, std::cos(geometry.inclination()));
   const Eigen::Vector3d tip = base * geometry.edge() + post.height * square;
   // A higher bed at the tip's shadow means lower light, and lower light a higher bed: the height is where
-  // the two agree, found by bisection between the tip and a bed as deep as ten posts.
-  const auto light_at = [&](double z) {
-    return along(geometry.at_level(post.tip_px, z) - tip, side);
-  };
+  // the two agree, found by bisection after a walk down from the edge.
+  const auto light_at = [&](double z) { return along(geometry.at_level(tip_px, z) - tip, source.side); };
   const auto excess = [&](double z) {
-    const Light light = light_at(z);
-    return bed_height(geometry, light, terminus, geometry.at_level(post.tip_px, z).x()) - z;
+    return bed_height(geometry, light_at(z), source.terminus, geometry.at_level(tip_px, z).x()) +
+           doubt.tip_height - z;
   };
-  double low = -10 * post.height;
-  double high = std::min(0.0, base * std::sin(geometry.inclination()));
-  if (!(excess(low) > 0 && excess(high) < 0))
+  const double step = post.height / 50;
+  const double deepest = tip.z() - 6 * post.height;
+  double high = tip.z() - post.height;
+  while (high > deepest && !(excess(high - step) > 0)) high -= step;
+  double low = high - step;
+  if (!(excess(low) > 0 && excess(high) <= 0))
     throw Error("light.post: the shadow of its tip does not lie beyond the straightedge's shadow, in its light");
   while (high - low > 1e-7) {
     const double middle = (low + high) / 2;
@@ -91,22 +97,69 @@ Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, int
   return light_at((low + high) / 2);
 }
 
+Light plain(const PhotoSetup::Angles& angles, int side) {
+  Light light;
+  light.elevation = angles.elevation;
+  light.azimuth = angles.azimuth;
+  light.side = side;
+  return light;
+}
+
+/// How much the section's height varies where the shadow of a post's tip may belong.
+double tip_height_sigma(const PhotoSetup::Post& post, const PhotoGeometry& geometry, const PhotoLight& source,
+                        const Light& light) {
+  const Eigen::Vector2d edge_shadow = geometry.top_face(source.terminus[source.terminus.size() / 2]);
+  const Eigen::Vector2d tip = geometry.top_face(post.tip_px);
+  const double way = std::max(0.0, std::abs(tip.y()) - std::abs(edge_shadow.y()));
+  double sum = 0;
+  double squares = 0;
+  constexpr int samples = 21;
+  for (int i = 0; i < samples; ++i) {
+    const double z = bed_height(geometry, light, source.terminus, tip.x() + way * std::tan(crest_turn) * (i - 10) / 10);
+    sum += z / samples;
+    squares += z * z / samples;
+  }
+  return std::hypot(std::sqrt(std::max(0.0, squares - sum * sum)), cross_slope * way);
+}
+
 }  // namespace
 
-Light find_light(const PhotoSetup& setup, const PhotoGeometry& geometry, int side,
-                 const std::vector<Eigen::Vector2d>& terminus) {
+Light find_light(const PhotoSetup& setup, const PhotoGeometry& geometry, const PhotoLight& source,
+                 const LightDoubt& doubt) {
+  Light light;
+  const char* name = "the setup";
   if (const auto* angles = std::get_if<PhotoSetup::Angles>(&setup.light)) {
-    Light light;
-    light.elevation = angles->elevation;
-    light.azimuth = angles->azimuth;
-    light.side = side;
-    return checked(light, "the setup");
+    light = plain(*angles, source.side);
+  } else if (const auto* post = std::get_if<PhotoSetup::Post>(&setup.light)) {
+    light = from_post(*post, geometry, source, doubt);
+    name = "the post";
+  } else if (const auto* sun = std::get_if<PhotoSetup::Sun>(&setup.light)) {
+    light = from_sun(*sun, geometry, source);
+    name = "the sun's place and time";
+  } else {
+    throw Error("light: its direction must be given, as elevation_deg and azimuth_deg, post or sun");
   }
-  if (const auto* post = std::get_if<PhotoSetup::Post>(&setup.light))
-    return checked(from_post(*post, geometry, side, terminus), "the post");
-  if (const auto* sun = std::get_if<PhotoSetup::Sun>(&setup.light))
-    return checked(from_sun(*sun, geometry, side, terminus), "the sun's place and time");
-  throw Error("light: its direction must be given, as elevation_deg and azimuth_deg, post or sun");
+  light.elevation += doubt.elevation;
+  light.azimuth += doubt.azimuth;
+  return checked(light, name);
+}
+
+std::vector<LightDoubt> light_doubts(const PhotoSetup& setup, const PhotoGeometry& geometry,
+                                     const PhotoLight& source, const Light& light) {
+  LightDoubt elevation;
+  LightDoubt azimuth;
+  if (const auto* post = std::get_if<PhotoSetup::Post>(&setup.light)) {
+    std::vector<LightDoubt> doubts(4);
+    doubts[0].base_px = {pixel_sigma, pixel_sigma};
+    doubts[1].tip_px = {pixel_sigma, 0};
+    doubts[2].tip_px = {0, pixel_sigma};
+    doubts[3].tip_height = tip_height_sigma(*post, geometry, source, light);
+    return doubts;
+  }
+  const bool sun = std::holds_alternative<PhotoSetup::Sun>(setup.light);
+  elevation.elevation = sun ? sun_sigma : angle_sigma;
+  azimuth.azimuth = sun ? north_sigma : angle_sigma;
+  return {elevation, azimuth};
 }
 
 }  // namespace aeolian

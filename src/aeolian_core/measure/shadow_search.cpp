@@ -168,18 +168,16 @@ std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) 
           sums[static_cast<std::size_t>(j)] + (j < edge_rows || j >= depth ? 0 : sunlit(grid.at(i, j), level));
     float least = std::numeric_limits<float>::infinity();
     for (int j = 0; j < rows; ++j) {
-      const int begin = std::max(j, edge_rows);
-      const int end = std::min(begin + window, depth);
-      const auto sum_to = [&](int row) { return sums[static_cast<std::size_t>(std::clamp(row, 0, depth))]; };
-      // Rows under the bar are half wrong: a shadow may begin there, but the edge itself is no shadow.
-      const int hidden = std::max(0, window - (j - edge_rows));
-      const float inner = sum_to(j) - sum_to(j - window) +
-                          (j < edge_rows + least_shadow ? static_cast<float>(window)
-                                                        : hidden_cost * static_cast<float>(hidden));
-      const float outer =
-          end > begin ? static_cast<float>(end - begin) -
-                            (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(begin)])
-                      : 0;
+      const auto sum_to = [&](int row) { return sums[static_cast<std::size_t>(std::clamp(row, edge_rows, depth))]; };
+      const int at = std::clamp(j, edge_rows, std::max(edge_rows, depth));
+      const int inner_rows = std::min(window, at - edge_rows);
+      const int outer_rows = std::max(0, std::min(window, depth - at));
+      // Rows that the bar or the photo's border hides count as half wrong.
+      const float inner = inner_rows < least_shadow
+                              ? static_cast<float>(window)
+                              : sum_to(at) - sum_to(at - window) + hidden_cost * static_cast<float>(window - inner_rows);
+      const float outer = static_cast<float>(outer_rows) - (sum_to(at + window) - sum_to(at)) +
+                          hidden_cost * static_cast<float>(window - outer_rows);
       float& c = cost[static_cast<std::size_t>(j)];
       c += inner + outer;
       least = std::min(least, c);
