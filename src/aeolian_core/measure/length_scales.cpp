@@ -51,14 +51,13 @@ std::optional<double> LengthScales::dominant(const std::vector<double>& distribu
 
 std::optional<double> LengthScales::maximum_near(std::size_t lag) const {
   const std::size_t half = std::max<std::size_t>(1, lag / 25);
-  const std::size_t span = std::max<std::size_t>(2, lag / 10);
-  const std::size_t first = lag > span + half ? lag - span - half : 1;
-  const std::size_t last = std::min(lag + span + half, static_cast<std::size_t>(heights_.size()) - 1);
+  const std::size_t first = lag > 2 * half ? lag - 2 * half : 1;
+  const std::size_t last = std::min(lag + 2 * half, static_cast<std::size_t>(heights_.size()) - 1);
   std::vector<double> f;
   for (std::size_t at = first; at <= last; ++at) f.push_back(alike(at));
   const auto top = static_cast<std::size_t>(std::max_element(f.begin(), f.end()) - f.begin());
   if (top < half) return std::nullopt;
-  const auto vertex = fit_vertex(f, top - half, top + half);
+  const auto vertex = parabola_vertex(f, top - half, top + half);
   if (!vertex || vertex->curvature >= 0) return std::nullopt;
   return static_cast<double>(first) + vertex->position;
 }

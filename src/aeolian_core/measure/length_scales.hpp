@@ -19,13 +19,14 @@ class LengthScales {
   /// The length [samples] that repeats: the first maximum after the first minimum of a distribution, both
   /// turns deeper than its chance wiggles. Nothing when there is none.
   std::optional<double> dominant(const std::vector<double>& distribution) const;
-  /// The maximum within a tenth about a lag, refined by a parabola over a twenty-fifth to each side.
+  /// The maximum within a twenty-fifth about a lag, refined by a parabola over as much to each side.
   std::optional<double> maximum_near(std::size_t lag) const;
 
  private:
   double alike(std::size_t lag) const;
 
-  Eigen::ArrayXf heights_;  ///< in units of sqrt(2) sigma; single precision halves the cost of the exponentials
+  Eigen::ArrayXf
+      heights_;  ///< in units of sqrt(2) sigma; single precision halves the cost of the exponentials
 };
 
 }  // namespace aeolian

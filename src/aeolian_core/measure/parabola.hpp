@@ -6,16 +6,18 @@
 
 namespace aeolian {
 
-/// Top (or bottom) of a parabola over equidistant samples.
-struct ParabolaVertex {
+/// An extremum between equidistant samples.
+struct Vertex {
   double position = 0;   ///< in samples from the first of the vector
   double value = 0;      ///< there
   double curvature = 0;  ///< second derivative, per sample squared
 };
 
 /// Vertex of the least-squares parabola through samples first..last (both included, at least three); nothing
-/// when it is straight or its vertex lies outside of them.
-std::optional<ParabolaVertex> fit_vertex(const std::vector<double>& values, std::size_t first,
-                                         std::size_t last);
+/// when it has none among them.
+std::optional<Vertex> parabola_vertex(const std::vector<double>& values, std::size_t first, std::size_t last);
+
+/// The same with a cubic through at least four, for tops whose sides differ.
+std::optional<Vertex> cubic_vertex(const std::vector<double>& values, std::size_t first, std::size_t last);
 
 }  // namespace aeolian

@@ -47,7 +47,7 @@ std::optional<double> PowerSpectrum::peak(const std::vector<double>& density, do
   }
   if (top == 0) return std::nullopt;
   const auto vertex =
-      fit_vertex({std::log(density[top - 1]), std::log(density[top]), std::log(density[top + 1])}, 0, 2);
+      parabola_vertex({std::log(density[top - 1]), std::log(density[top]), std::log(density[top + 1])}, 0, 2);
   if (!vertex) return std::nullopt;
   return spacing * (static_cast<double>(top) + vertex->position);
 }

@@ -199,7 +199,8 @@ void Analyser::find_ripples(ProfileAnalysis& result) {
   const std::vector<double> level = detrended(even);
   const double relief = typical_height(level, static_cast<std::size_t>(lengths_.dominant / 2));
   const double prominence = std::max({3 * noise_, profile_.grain_diameter, 0.15 * relief, least_relief});
-  const auto crests = prominent_crests(running_mean(level, static_cast<std::size_t>(filter_reach_)), prominence);
+  const auto crests =
+      prominent_crests(running_mean(level, static_cast<std::size_t>(filter_reach_)), prominence);
   std::vector<RippleShape> shapes;
   for (std::size_t i = 0; i < crests.size(); ++i) {
     result.crests.push_back(raw_.start + raw_.step * static_cast<double>(crests[i]));
@@ -256,12 +257,14 @@ std::vector<double> Analyser::measured(const std::vector<double>& z, double step
   values.push_back(rms(level));
   std::optional<double> dominant;
   if (lengths_.dominant > 0)
-    dominant = LengthScales(level, alike_).maximum_near(static_cast<std::size_t>(std::lround(lengths_.dominant)));
+    dominant =
+        LengthScales(level, alike_).maximum_near(static_cast<std::size_t>(std::lround(lengths_.dominant)));
   values.push_back(dominant ? *dominant * step : none);
   std::optional<double> wavenumber;
   if (lengths_.wavenumber > 0)
-    wavenumber = spectrum_.peak(spectrum_.density(level), 0.8 * lengths_.wavenumber, 1.25 * lengths_.wavenumber);
-  values.push_back(wavenumber ? raw_.step / step / *wavenumber : none);
+    wavenumber =
+        spectrum_.peak(spectrum_.density(level), 0.8 * lengths_.wavenumber, 1.25 * lengths_.wavenumber);
+  values.push_back(wavenumber ? step / raw_.step / *wavenumber : none);
   return values;
 }
 
@@ -277,6 +280,10 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
   const double level = std::accumulate(smooth_.begin(), smooth_.end(), 0.0) / static_cast<double>(n);
 
   const std::vector<double> found = measured(smooth_, raw_.step);
+  // The copies start from a bed without the noise that is left, whose peaks would hide the effect of more.
+  const auto calm = static_cast<std::size_t>(std::max(lengths_.dominant / 20, 1.0));
+  const std::vector<double> model = running_mean(smooth_, calm);
+  const std::vector<double> expected = measured(model, raw_.step);
   std::vector<Scatter> scatter(found.size());
   std::vector<Scatter> at(n);
   RandomStream common(1987, pairs);
@@ -287,7 +294,7 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
     // In pairs of opposite noise, so that what is linear in it cancels from the means.
     for (const double sign : {1.0, -1.0}) {
       std::vector<double> copy(n);
-      for (std::size_t i = 0; i < n; ++i) copy[i] = smooth_[i] + sign * deviation[i];
+      for (std::size_t i = 0; i < n; ++i) copy[i] = model[i] + sign * deviation[i];
       copy = smoothed(copy);
       for (std::size_t i = 0; i < n; ++i) {
         at[i].add(copy[i]);
@@ -302,7 +309,7 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
 
   std::size_t next = 0;
   const auto figure = [&](bool corrected) {
-    const double bias = corrected ? scatter[next].mean() - found[next] : 0;
+    const double bias = corrected ? scatter[next].mean() - expected[next] : 0;
     const Figure f{found[next] - bias, scatter[next].sigma()};
     ++next;
     return f;

@@ -73,14 +73,31 @@ struct ProfileAnalysis {
 /// out by three standard errors of the heights, by one grain, and by 15 % of the typical relief. Ripples cut
 /// off by the ends are left out.
 ///
-/// Standard errors are those of the measurement: the scatter of the figures over 64 copies of the profile with
-/// new noise (sigma_z or the roughness seen between neighbours, whichever is larger, correlated over two
+/// Standard errors are those of the measurement: the scatter of the figures over 64 copies of the profile
+/// with new noise (sigma_z or the roughness seen between neighbours, whichever is larger, correlated over two
 /// grains) and new common errors of heights and lengths. What the procedure does to the copies in the mean
-/// (smoothing lowers crests, noise steepens slopes) is taken off the figures of ripples and the roughness. The
-/// scatter from ripple to ripple is no error and is not in it.
+/// (smoothing lowers crests, noise steepens slopes) is taken off the figures of ripples and the roughness.
+/// The scatter from ripple to ripple is no error and is not in it. Not covered: a sharp edge (brink or
+/// V-shaped trough) comes out rounded by up to half a grain, and the crest of a ripple whose top is flat on
+/// one side only is found up to three standard errors of height below the edge, on the flat side.
 ///
 /// A bed without ripples has NaN figures. Throws Error when fewer than eight samples are left.
 ProfileAnalysis analyse(const ShadowProfile& profile);
+
+/// The heights of one ripple over its tangent, from trough to trough along it; start is 0.
+EvenProfile ripple_outline(const EvenProfile& profile, const ProfileRipple& ripple);
+
+/// How alike ripples are.
+struct ProfileRepeatability {
+  EvenProfile mean;       ///< outline of the mean wavelength; sigma_z is the standard deviation at each place
+  double wavelength = 0;  ///< mean [m]
+  double deviation = 0;   ///< rms over the places of the standard deviation [m]
+};
+
+/// Lays outlines (of ripples, or of one ripple measured repeatedly) over each other, each scaled in length
+/// and height alike to the mean wavelength, and takes mean and standard deviation at 101 places (Werner 1987,
+/// ch. V). Throws Error for fewer than two.
+ProfileRepeatability profile_repeatability(const std::vector<EvenProfile>& outlines);
 
 /// What a series of profiles of one section says, photographs in time order.
 struct ProfileSeries {
@@ -100,7 +117,20 @@ struct ProfileSeries {
   Figure growth;     ///< [m/s]
 };
 
-/// Throws Error for fewer than two profiles, times that do not rise, and sections that do not overlap.
+/// Migration is the shift of the highest correlation between detrended profiles, within half a wavelength of
+/// where the last speed leads; over the whole series each profile is held against the earliest one that still
+/// resembles it, so that errors do not add up. Its standard error comes from how unlike the profiles are once
+/// shifted: noise and change of shape. An error of place that a whole photograph has is not in it. Growth is
+/// that of the mean ripple height, over the whole series the weighted line through all. Figures that cannot
+/// be had are NaN.
+///
+/// Crests are followed with the migration. Two that come within half a wavelength and become one are a
+/// merger, the reverse a split; a crest that goes or comes alone is a loss or a birth, unless it is within
+/// half a wavelength of the ends. A crest missing on one photograph only, or seen on one only between others,
+/// counts for nothing.
+///
+/// Throws Error for fewer than two profiles, another number of times, times that do not rise, and sections
+/// that do not overlap.
 ProfileSeries analyse_series(const std::vector<ProfileAnalysis>& analyses, const std::vector<double>& times);
 
 }  // namespace aeolian

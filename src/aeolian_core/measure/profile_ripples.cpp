@@ -26,7 +26,8 @@ std::optional<Edge> spanning_edge(const std::vector<double>& z, std::size_t firs
     while (hull.size() >= 2) {
       const std::size_t a = hull[hull.size() - 2];
       const std::size_t b = hull.back();
-      const double turn = (z[b] - z[a]) * static_cast<double>(i - a) - (z[i] - z[a]) * static_cast<double>(b - a);
+      const double turn =
+          (z[b] - z[a]) * static_cast<double>(i - a) - (z[i] - z[a]) * static_cast<double>(b - a);
       if (turn < 0) break;
       hull.pop_back();
     }
@@ -37,14 +38,15 @@ std::optional<Edge> spanning_edge(const std::vector<double>& z, std::size_t firs
   return Edge{*(right - 1), *right};
 }
 
-/// The bottom of the trough about sample i of heights over a tangent: the vertex of the parabola through all
+/// The bottom of the trough about sample i of heights over a tangent: the vertex of the cubic through all
 /// that noise may have made deeper, the sample itself where that says nothing.
-Point bottom(const std::vector<double>& over, std::size_t i, std::size_t first, std::size_t last, double noise) {
+Point bottom(const std::vector<double>& over, std::size_t i, std::size_t first, std::size_t last,
+             double noise) {
   std::size_t left = i;
   std::size_t right = i;
   while (left > first && over[left - 1] <= 3 * noise) --left;
   while (right < last && over[right + 1] <= 3 * noise) ++right;
-  const auto vertex = right - left >= 4 ? fit_vertex(over, left, right) : std::nullopt;
+  const auto vertex = right - left >= 4 ? cubic_vertex(over, left, right) : std::nullopt;
   if (!vertex || vertex->curvature <= 0) return {static_cast<double>(i), over[i]};
   return {vertex->position, vertex->value};
 }
@@ -123,7 +125,9 @@ std::optional<RippleShape> measure_ripple(const std::vector<double>& z, double s
   const Point low_left = bottom(rough, left, 0, crest - first, doubt);
   const Point low_right = bottom(rough, right, crest - first, part.size() - 1, doubt);
   const double rise = (touch_right.z - touch_left.z) / (touch_right.at - touch_left.at);
-  const auto on_bed = [&](const Point& p) { return Point{p.at, p.z + touch_left.z + rise * (p.at - touch_left.at)}; };
+  const auto on_bed = [&](const Point& p) {
+    return Point{p.at, p.z + touch_left.z + rise * (p.at - touch_left.at)};
+  };
   const Point start = on_bed(low_left);
   const Point end = on_bed(low_right);
   if (!(end.at > start.at)) return std::nullopt;

@@ -31,7 +31,8 @@ struct RippleShape {
 
 /// The ripple with a known crest in the samples first..last, which reach over the troughs on both sides at
 /// most up to the neighbouring crests. Within `noise` [m] three times over, samples cannot be told from a
-/// trough's bottom or a crest's top: their parabola is taken instead. Nothing when no tangent spans the crest.
+/// trough's bottom or a crest's top: a cubic through them is taken instead. Nothing when no tangent spans the
+/// crest.
 std::optional<RippleShape> measure_ripple(const std::vector<double>& z, double step, std::size_t first,
                                           std::size_t crest, std::size_t last, double noise);
 

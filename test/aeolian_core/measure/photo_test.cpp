@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "../../exif.hpp"
 #include "../../temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -32,36 +33,6 @@ std::string encoded(const std::string& extension, const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(extension, picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 98});
   return {bytes.begin(), bytes.end()};
-}
-
-void append(std::string& bytes, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFF);
-}
-
-/// A JPEG with an EXIF segment, written as the EXIF standard 2.3 says, little-endian.
-std::string with_exif(const std::string& jpeg, int orientation, int focal_35mm, const std::string& time) {
-  const auto entry = [](std::string& to, int tag, int type, std::uint32_t count, std::uint32_t value) {
-    append(to, static_cast<std::uint32_t>(tag), 2);
-    append(to, static_cast<std::uint32_t>(type), 2);
-    append(to, count, 4);
-    append(to, value, 4);
-  };
-  std::string tiff("II*\0\x08\0\0\0", 8);
-  append(tiff, 2, 2);
-  entry(tiff, 0x0112, 3, 1, static_cast<std::uint32_t>(orientation));
-  entry(tiff, 0x8769, 4, 1, 8 + 2 + 2 * 12 + 4);
-  append(tiff, 0, 4);
-  const std::uint32_t time_at = static_cast<std::uint32_t>(tiff.size()) + 2 + 2 * 12 + 4;
-  append(tiff, 2, 2);
-  entry(tiff, 0x9003, 2, static_cast<std::uint32_t>(time.size()) + 1, time_at);
-  entry(tiff, 0xA405, 3, 1, static_cast<std::uint32_t>(focal_35mm));
-  append(tiff, 0, 4);
-  tiff += time + '\0';
-  const std::string payload = std::string("Exif\0\0", 6) + tiff;
-  std::string segment = "\xFF\xE1";
-  segment += static_cast<char>((payload.size() + 2) >> 8);
-  segment += static_cast<char>((payload.size() + 2) & 0xFF);
-  return jpeg.substr(0, 2) + segment + payload + jpeg.substr(2);
 }
 
 double mean(const Photo& photo) {
