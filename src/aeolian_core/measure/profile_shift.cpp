@@ -86,7 +86,8 @@ double shift_error(const Pair& pair, double lag, std::size_t stretch) {
   const double share = lag - static_cast<double>(whole);
   const auto n = static_cast<long>(pair.earlier.size());
   const Sums s = sums_at(pair, std::lround(lag));
-  const double offset = (s.b - s.a) / s.n;
+  const double gain = (s.ab - s.a * s.b / s.n) / (s.aa - s.a * s.a / s.n);  // growth is no noise
+  const double offset = (s.b - gain * s.a) / s.n;
   double slopes = 0;
   double variance = 0;
   double stretch_sum = 0;
@@ -96,8 +97,8 @@ double shift_error(const Pair& pair, double lag, std::size_t stretch) {
     const auto moved = static_cast<std::size_t>(i + whole);
     const double slope = (pair.earlier[at + 1] - pair.earlier[at - 1]) / (2 * pair.step);
     const double later = (1 - share) * pair.later[moved] + share * pair.later[moved + 1];
-    stretch_sum += slope * (later - pair.earlier[at] - offset);
-    slopes += slope * slope;
+    stretch_sum += slope * (later - gain * pair.earlier[at] - offset);
+    slopes += gain * slope * slope;
     if (++in_stretch == stretch) {
       variance += stretch_sum * stretch_sum;
       stretch_sum = 0;

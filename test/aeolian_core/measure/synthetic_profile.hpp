@@ -17,18 +17,19 @@ using Curve = std::function<double(double)>;
 
 /// Triangles of one wavelength, troughs at whole wavelengths, with given angles left and right of the crest.
 inline Curve triangles(double wavelength, double left, double right) {
-  const double height = wavelength / (1 / std::tan(left) + 1 / std::tan(right));
   return [=](double x) {
     const double s = x - wavelength * std::floor(x / wavelength);
-    return std::min(s * std::tan(left), (wavelength - s) * std::tan(right)) * (height > 0);
+    return std::min(s * std::tan(left), (wavelength - s) * std::tan(right));
   };
 }
 
 /// A smooth ripple train, the steeper flank on the right, troughs at whole wavelengths, height `height`.
 inline Curve leaning(double wavelength, double height) {
+  double trough = -0.5 * M_PI;
+  for (int i = 0; i < 50; ++i) trough = -0.5 * M_PI + 0.5 * std::sin(trough);
   return [=](double x) {
-    const double phase = 2 * M_PI * x / wavelength - M_PI;
-    return 0.5 * height * (1 + std::cos(phase + 0.5 * std::sin(phase)));
+    const double phase = 2 * M_PI * x / wavelength + trough;
+    return 0.5 * height * (1 + std::sin(phase - 0.5 * std::sin(phase)));
   };
 }
 
