@@ -289,7 +289,7 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
   const std::vector<double> found = measured(smooth_, raw_.step);
   // The copies start from a bed without the noise that is left, whose peaks would hide the effect of more.
   const auto calm = static_cast<std::size_t>(std::max(lengths_.dominant / 20, 1.0));
-  const std::vector<double> model = running_mean(smooth_, calm);
+  const std::vector<double> model = running_mean(running_mean(smooth_, calm), calm);
   const std::vector<double> expected = measured(model, raw_.step);
   const std::array<double, 2> lengths = lengths_of(smooth_, raw_.step);
   std::vector<Scatter> scatter(found.size());

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "synthetic_profile.hpp"
+#include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {

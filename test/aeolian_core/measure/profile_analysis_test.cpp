@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "synthetic_profile.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "synthetic_profile.hpp"
 
 namespace aeolian {
 namespace {
@@ -56,8 +56,8 @@ class Table51 : public testing::TestWithParam<Surface> {};
 // Row 10: Werner's table 5.1 as triangles of those angles, measured with the filter of a grain.
 TEST_P(Table51, IsReproduced) {
   const Surface s = GetParam();
-  ShadowProfile profile = dipping(triangles(s.wavelength, s.stoss * degree, s.lee * degree), 4.6 * s.wavelength,
-                                  grain, s.dip * degree);
+  ShadowProfile profile = dipping(triangles(s.wavelength, s.stoss * degree, s.lee * degree),
+                                  4.6 * s.wavelength, grain, s.dip * degree);
   profile.grain_diameter = grain;
   profile.downwind = 1;
   const auto a = analyse(profile);
@@ -100,12 +100,12 @@ TEST(ProfileAnalysis, LengthsOfAWaveAgree) {
   EXPECT_EQ(a.wavenumber.size(), a.power.size());
 }
 
-// A dune's flank under the ripples, curved by several ripple heights: a hull of the whole profile would bridge
+// A hollow under the ripples, deeper than they are high: a hull of the whole profile would bridge
 // the ripples of the hollow.
 TEST(ProfileAnalysis, ALongWaveDoesNotHideRipples) {
   const Curve ripples = leaning(0.05, 0.003);
-  const auto a = analyse(profile_of(
-      [&](double x) { return ripples(x) + 0.015 * std::cos(2 * M_PI * x / 0.6); }, 0.62, 0.0005));
+  const auto a = analyse(
+      profile_of([&](double x) { return ripples(x) + 0.005 * std::cos(2 * M_PI * x / 0.6); }, 0.62, 0.0005));
   ASSERT_EQ(a.ripples.size(), 11u);
   for (const auto& ripple : a.ripples) EXPECT_NEAR(ripple.wavelength.value, 0.05, 0.002);
 }

@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "synthetic_profile.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "synthetic_profile.hpp"
 
 namespace aeolian {
 namespace {
@@ -45,9 +45,10 @@ TEST(ProfileRepeatability, RipplesOfADippingBedAreOutlinedOnTheirTangent) {
   ASSERT_GE(ripples.size(), 3u);
   const auto r = profile_repeatability(ripples);
   EXPECT_NEAR(r.wavelength, 0.07, 1e-4);
-  EXPECT_NEAR(r.deviation, 0, 0.02e-3);
+  EXPECT_NEAR(r.deviation, 0, 0.04e-3);
   for (std::size_t i = 0; i < 101; ++i)
-    EXPECT_NEAR(r.mean.z[i], leaning(0.07, 0.0042)(0.0007 * static_cast<double>(i)), 0.1e-3);  // a sample aside
+    EXPECT_NEAR(r.mean.z[i], leaning(0.07, 0.0042)(0.0007 * static_cast<double>(i)),
+                0.1e-3);  // a sample aside
 }
 
 TEST(ProfileRepeatability, NeedsTwo) { EXPECT_THROW(profile_repeatability(outlines(1, 0)), Error); }

@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "synthetic_profile.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "synthetic_profile.hpp"
 
 namespace aeolian {
 namespace {

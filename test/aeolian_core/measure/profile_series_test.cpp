@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "synthetic_profile.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "synthetic_profile.hpp"
 
 namespace aeolian {
 namespace {
@@ -39,8 +39,8 @@ double sine(double x) { return 0.002 * std::sin(2 * M_PI * x / 0.07); }
 
 TEST(ProfileSeries, SpeedOfATranslatingSine) {
   for (const double wind : {1.0, -1.0}) {
-    const auto analyses =
-        photographs(10, 0.1e-3, 1, wind, [&](double x, double t) { return sine(x - wind * 1e-4 * t) + 0.02 * x; });
+    const auto analyses = photographs(
+        10, 0.1e-3, 1, wind, [&](double x, double t) { return sine(x - wind * 1e-4 * t) + 0.02 * x; });
     const auto series = analyse_series(analyses, times(10));
     ASSERT_EQ(series.steps.size(), 9u);
     EXPECT_NEAR(series.steps[0].time, 0.5 * interval, 1e-9);
@@ -102,8 +102,8 @@ double merging_bed(double x, double t) {
   return z + bump(x - (0.16 - behind) - 5e-5 * t, 0.0025, 0.007);
 }
 
-/// When the smaller ripple is no crest of its own any more: the dip before the larger one is less than 15 % of
-/// the relief. Found on the bed itself.
+/// When the smaller ripple is no crest of its own any more: the dip before the larger one is less than 15 %
+/// of the relief. Found on the bed itself.
 double merger_time() {
   for (double t = 0;; t += 1) {
     double lowest = 1;

@@ -4,9 +4,8 @@
 #include <map>
 #include <string>
 
-#include <gtest/gtest.h>
-
 #include "synthetic_profile.hpp"
+#include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
