@@ -68,7 +68,7 @@ TEST(ProfileSeries, StandardErrorsOfMigrationAndGrowthAreRight) {
   double overall = 0;
   double line = 0;
   int steps = 0;
-  constexpr int series_count = 30;
+  constexpr int series_count = 20;
   for (std::uint64_t seed = 0; seed < series_count; ++seed) {
     const auto analyses = photographs(5, 0.1e-3, seed, 1, [](double x, double t) {
       return (1 + 0.001 * t) * leaning(0.07, 0.003)(x - 1e-4 * t);
