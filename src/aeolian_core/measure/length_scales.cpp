@@ -50,16 +50,21 @@ std::optional<double> LengthScales::dominant(const std::vector<double>& distribu
 }
 
 std::optional<double> LengthScales::maximum_near(std::size_t lag) const {
-  const std::size_t half = std::max<std::size_t>(1, lag / 25);
-  const std::size_t first = lag > 2 * half ? lag - 2 * half : 1;
-  const std::size_t last = std::min(lag + 2 * half, static_cast<std::size_t>(heights_.size()) - 1);
+  // Of a wide top, some twenty lags say enough.
+  const std::size_t stride = std::max<std::size_t>(1, lag / 125);
+  const std::size_t half = std::max<std::size_t>(1, lag / 25 / stride);
+  const std::size_t reach = std::min(2 * half, (lag - 1) / stride);
+  const std::size_t first = lag - reach * stride;
   std::vector<double> f;
-  for (std::size_t at = first; at <= last; ++at) f.push_back(alike(at));
+  for (std::size_t at = first; at <= lag + 2 * half * stride; at += stride) {
+    if (at >= static_cast<std::size_t>(heights_.size())) break;
+    f.push_back(alike(at));
+  }
   const auto top = static_cast<std::size_t>(std::max_element(f.begin(), f.end()) - f.begin());
   if (top < half) return std::nullopt;
   const auto vertex = parabola_vertex(f, top - half, top + half);
   if (!vertex || vertex->curvature >= 0) return std::nullopt;
-  return static_cast<double>(first) + vertex->position;
+  return static_cast<double>(first) + static_cast<double>(stride) * vertex->position;
 }
 
 }  // namespace aeolian

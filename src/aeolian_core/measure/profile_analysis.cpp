@@ -125,7 +125,8 @@ class Analyser {
   void find_ripples(ProfileAnalysis& result);
   void find_wind(ProfileAnalysis& result, const std::vector<RippleShape>& shapes);
   std::vector<double> smoothed(const std::vector<double>& z) const;
-  std::vector<double> measured(const std::vector<double>& z, double step);
+  std::vector<double> measured(const std::vector<double>& z, double step) const;
+  std::array<double, 2> lengths_of(const std::vector<double>& z, double step);
   void add_uncertainty(ProfileAnalysis& result);
 
   const ShadowProfile& profile_;
@@ -237,9 +238,9 @@ void Analyser::find_wind(ProfileAnalysis& result, const std::vector<RippleShape>
   result.downwind = downwind_;
 }
 
-/// All figures of one smoothed profile: those of each ripple, their means, the roughness; then the dominant
-/// length and the spectral wavelength. NaN where a copy has lost one.
-std::vector<double> Analyser::measured(const std::vector<double>& z, double step) {
+/// All figures of ripples in one smoothed profile, then their means and the roughness. NaN where a copy has
+/// lost one.
+std::vector<double> Analyser::measured(const std::vector<double>& z, double step) const {
   std::vector<double> values;
   RippleValues mean{};
   for (const CrestRange& range : ranges_) {
@@ -253,23 +254,29 @@ std::vector<double> Analyser::measured(const std::vector<double>& z, double step
   if (ranges_.empty()) mean.fill(none);
   values.insert(values.end(), mean.begin(), mean.end());
 
-  const std::vector<double> level = detrended({0, step, z, {}});
-  values.push_back(rms(level));
-  std::optional<double> dominant;
-  if (lengths_.dominant > 0)
-    dominant =
-        LengthScales(level, alike_).maximum_near(static_cast<std::size_t>(std::lround(lengths_.dominant)));
-  values.push_back(dominant ? *dominant * step : none);
-  std::optional<double> wavenumber;
-  if (lengths_.wavenumber > 0)
-    wavenumber =
-        spectrum_.peak(spectrum_.density(level), 0.8 * lengths_.wavenumber, 1.25 * lengths_.wavenumber);
-  values.push_back(wavenumber ? step / raw_.step / *wavenumber : none);
+  values.push_back(rms(detrended({0, step, z, {}})));
   return values;
 }
 
+/// The dominant length and the spectral wavelength [m] of one smoothed profile, near those found; NaN where a
+/// copy has lost one.
+std::array<double, 2> Analyser::lengths_of(const std::vector<double>& z, double step) {
+  std::array<double, 2> result{none, none};
+  const std::vector<double> level = detrended({0, step, z, {}});
+  if (lengths_.dominant > 0) {
+    const auto near = static_cast<std::size_t>(std::lround(lengths_.dominant));
+    if (const auto lag = LengthScales(level, alike_).maximum_near(near)) result[0] = *lag * step;
+  }
+  if (lengths_.wavenumber > 0) {
+    const auto peak =
+        spectrum_.peak(spectrum_.density(level), 0.8 * lengths_.wavenumber, 1.25 * lengths_.wavenumber);
+    if (peak) result[1] = step / raw_.step / *peak;
+  }
+  return result;
+}
+
 void Analyser::add_uncertainty(ProfileAnalysis& result) {
-  constexpr std::uint64_t pairs = 32;
+  constexpr std::uint64_t pairs = 64;
   const std::size_t n = smooth_.size();
   const double grain = profile_.grain_diameter;
   const auto correlated = grain > 0 ? static_cast<std::size_t>(std::lround(2 * grain / raw_.step)) : 2;
@@ -282,9 +289,11 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
   const std::vector<double> found = measured(smooth_, raw_.step);
   // The copies start from a bed without the noise that is left, whose peaks would hide the effect of more.
   const auto calm = static_cast<std::size_t>(std::max(lengths_.dominant / 20, 1.0));
-  const std::vector<double> model = running_mean(smooth_, calm);
+  const std::vector<double> model = running_mean(running_mean(smooth_, calm), calm);
   const std::vector<double> expected = measured(model, raw_.step);
+  const std::array<double, 2> lengths = lengths_of(smooth_, raw_.step);
   std::vector<Scatter> scatter(found.size());
+  std::array<Scatter, 2> length_scatter;
   std::vector<Scatter> at(n);
   RandomStream common(1987, pairs);
   for (std::uint64_t pair = 0; pair < pairs; ++pair) {
@@ -301,25 +310,29 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
         const double beside = edge * (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1));
         copy[i] += sign * height_error * (copy[i] - level - beside);
       }
-      const auto values = measured(copy, raw_.step * (1 + sign * length_error));
+      const double step = raw_.step * (1 + sign * length_error);
+      const auto values = measured(copy, step);
       for (std::size_t k = 0; k < values.size(); ++k) scatter[k].add(values[k]);
+      if (sign < 0) continue;  // the lengths of the whole bed are linear in the noise: the twin tells nothing
+      const auto copied = lengths_of(copy, step);
+      for (std::size_t k = 0; k < copied.size(); ++k) length_scatter[k].add(copied[k]);
     }
   }
   for (std::size_t i = 0; i < n; ++i) result.even.sigma_z.push_back(at[i].sigma());
 
   std::size_t next = 0;
-  const auto figure = [&](bool corrected) {
-    const double bias = corrected ? scatter[next].mean() - expected[next] : 0;
+  const auto figure = [&] {
+    const double bias = scatter[next].mean() - expected[next];
     const Figure f{found[next] - bias, scatter[next].sigma()};
     ++next;
     return f;
   };
   for (ProfileRipple& ripple : result.ripples)
-    for (const RippleFigure& f : ripple_figures) ripple.*f.of_ripple = figure(true);
-  for (const RippleFigure& f : ripple_figures) result.*f.mean = figure(true);
-  result.roughness = figure(true);
-  result.dominant_length = figure(false);
-  result.spectral_wavelength = figure(false);
+    for (const RippleFigure& f : ripple_figures) ripple.*f.of_ripple = figure();
+  for (const RippleFigure& f : ripple_figures) result.*f.mean = figure();
+  result.roughness = figure();
+  result.dominant_length = {lengths[0], length_scatter[0].sigma()};
+  result.spectral_wavelength = {lengths[1], length_scatter[1].sigma()};
 }
 
 ProfileAnalysis Analyser::run() {

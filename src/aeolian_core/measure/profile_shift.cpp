@@ -33,70 +33,95 @@ Pair common_section(const EvenProfile& earlier, const EvenProfile& later) {
   const double to = std::min(end_of(earlier), end_of(later));
   Pair pair;
   pair.step = std::max(earlier.step, later.step);
-  EvenProfile mean{from, pair.step, {}, {}};
   for (double i = 0; from + i * pair.step <= to; ++i) {
     pair.earlier.push_back(height_at(earlier, from + i * pair.step));
     pair.later.push_back(height_at(later, from + i * pair.step));
-    mean.z.push_back(0.5 * (pair.earlier.back() + pair.later.back()));
   }
   constexpr std::size_t fewest = 8;
-  if (mean.z.size() < fewest)
+  if (pair.earlier.size() < fewest)
     throw Error("profile series: sections " + std::to_string(earlier.start) + " to " +
                 std::to_string(end_of(earlier)) + " m and " + std::to_string(later.start) + " to " +
                 std::to_string(end_of(later)) + " m do not overlap");
-  const std::vector<double> level = detrended(mean);
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    pair.earlier[i] -= mean.z[i] - level[i];
-    pair.later[i] -= mean.z[i] - level[i];
-  }
   return pair;
 }
 
-struct Sums {
-  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+/// later(i + lag) = offset + tilt (i - middle) + gain earlier(i) by least squares over all i that both have.
+struct Match {
+  long first = 0;
+  long end = 0;
+  double middle = 0;
+  double offset = 0;
+  double tilt = 0;
+  double gain = 0;
+  double correlation = -1;  ///< of the two without their lines; -1 where one is a line
 };
 
-Sums sums_at(const Pair& pair, long lag) {
-  const auto n = static_cast<long>(pair.earlier.size());
-  Sums s;
-  for (long i = std::max(0L, -lag); i < std::min(n, n - lag); ++i) {
-    const double a = pair.earlier[static_cast<std::size_t>(i)];
-    const double b = pair.later[static_cast<std::size_t>(i + lag)];
-    ++s.n;
-    s.a += a;
-    s.b += b;
-    s.aa += a * a;
-    s.bb += b * b;
-    s.ab += a * b;
+Match match_at(const Pair& pair, long lag) {
+  const auto count = static_cast<long>(pair.earlier.size());
+  Match m;
+  m.first = std::max(0L, -lag);
+  m.end = std::min(count, count - lag);
+  m.middle = 0.5 * static_cast<double>(m.first + m.end - 1);
+  double a = 0;
+  double b = 0;
+  double aa = 0;
+  double bb = 0;
+  double ab = 0;
+  double au = 0;
+  double bu = 0;
+  for (long i = m.first; i < m.end; ++i) {
+    const double u = static_cast<double>(i) - m.middle;
+    const double za = pair.earlier[static_cast<std::size_t>(i)];
+    const double zb = pair.later[static_cast<std::size_t>(i + lag)];
+    a += za;
+    b += zb;
+    aa += za * za;
+    bb += zb * zb;
+    ab += za * zb;
+    au += za * u;
+    bu += zb * u;
   }
-  return s;
+  const auto n = static_cast<double>(m.end - m.first);
+  const double uu = n * (n * n - 1) / 12;
+  const double va = aa - a * a / n - au * au / uu;
+  const double vb = bb - b * b / n - bu * bu / uu;
+  const double vab = ab - a * b / n - au * bu / uu;
+  if (va * vb > 0) m.correlation = vab / std::sqrt(va * vb);
+  m.gain = vab / va;
+  m.offset = (b - m.gain * a) / n;
+  m.tilt = (bu - m.gain * au) / uu;
+  return m;
 }
 
-/// Correlation coefficient of earlier(i) with later(i + lag); -1 where one does not vary.
-double correlation_at(const Pair& pair, long lag) {
-  const Sums s = sums_at(pair, lag);
-  const double product = (s.aa - s.a * s.a / s.n) * (s.bb - s.b * s.b / s.n);
-  return product > 0 ? (s.ab - s.a * s.b / s.n) / std::sqrt(product) : -1;
+/// Slope of the earlier profile by least squares over `half` samples to each side: between neighbours it would
+/// be that of the noise.
+double slope_at(const Pair& pair, long i, long half) {
+  double moment = 0;
+  for (long k = -half; k <= half; ++k)
+    moment += static_cast<double>(k) * pair.earlier[static_cast<std::size_t>(i + k)];
+  const auto h = static_cast<double>(half);
+  return moment / (h * (h + 1) * (2 * h + 1) / 3 * pair.step);
 }
 
 /// Standard error of the shift [m]: sum of slope times difference over the sum of squared slopes, the
 /// differences taken as one where they may be correlated.
 double shift_error(const Pair& pair, double lag, std::size_t stretch) {
+  const long half = std::max(1L, static_cast<long>(stretch / 5));
   const auto whole = static_cast<long>(std::floor(lag));
   const double share = lag - static_cast<double>(whole);
-  const auto n = static_cast<long>(pair.earlier.size());
-  const Sums s = sums_at(pair, std::lround(lag));
-  const double offset = (s.b - s.a) / s.n;
+  const Match m = match_at(pair, std::lround(lag));
   double slopes = 0;
   double variance = 0;
   double stretch_sum = 0;
   std::size_t in_stretch = 0;
-  for (long i = std::max(1L, -whole); i < std::min(n - 1, n - whole - 1); ++i) {
+  for (long i = m.first + half; i + half + 1 < m.end; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto moved = static_cast<std::size_t>(i + whole);
-    const double slope = (pair.earlier[at + 1] - pair.earlier[at - 1]) / (2 * pair.step);
+    const double slope = m.gain * slope_at(pair, i, half);
     const double later = (1 - share) * pair.later[moved] + share * pair.later[moved + 1];
-    stretch_sum += slope * (later - pair.earlier[at] - offset);
+    const double expected =
+        m.offset + m.tilt * (static_cast<double>(i) - m.middle) + m.gain * pair.earlier[at];
+    stretch_sum += slope * (later - expected);
     slopes += slope * slope;
     if (++in_stretch == stretch) {
       variance += stretch_sum * stretch_sum;
@@ -122,7 +147,7 @@ std::optional<ProfileShift> profile_shift(const EvenProfile& earlier, const Even
   const auto last =
       static_cast<long>(std::floor(std::clamp((expected + range) / pair.step, -furthest, furthest)));
   std::vector<double> curve;
-  for (long lag = first; lag <= last; ++lag) curve.push_back(correlation_at(pair, lag));
+  for (long lag = first; lag <= last; ++lag) curve.push_back(match_at(pair, lag).correlation);
   if (curve.size() < 3) return std::nullopt;
   const auto top = static_cast<std::size_t>(std::max_element(curve.begin(), curve.end()) - curve.begin());
   if (top == 0 || top + 1 == curve.size() || curve[top] < weakest) return std::nullopt;
