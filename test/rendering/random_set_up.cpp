@@ -131,14 +131,16 @@ bool Draw::draw_bed() {
   ripples_ = RippleBed{};
   const double longest = std::min(0.2, 2 * reach_ / 2.6);
   if (longest <= 0.03) return false;
-  ripples_.crest_angle = uniform(-10, 10) * degree;
+  // A post's shadow must fall on a bed that is level along the crests, so these are set up with more care.
+  const bool post = notes_.light == LightNote::post;
+  ripples_.crest_angle = (post ? uniform(-2, 2) : uniform(-10, 10)) * degree;
   ripples_.wavelength = log_uniform(0.03, longest) * std::cos(ripples_.crest_angle);
   ripples_.relief = ripples_.wavelength / uniform(12, 25);
   ripples_.skew = uniform(0.2, 0.6);
   ripples_.phase = uniform(0, 2 * M_PI);
   ripples_.downwind = chance(0.5) ? 1 : -1;
   ripples_.slope_x = std::tan(scene_.inclination + uniform(-5, 5) * degree);
-  ripples_.slope_y = std::tan(uniform(-3, 3) * degree);
+  ripples_.slope_y = std::tan((post ? uniform(-0.3, 0.3) : uniform(-3, 3)) * degree);
 
   const auto clearance = [this](double across) {
     double least = 1;
