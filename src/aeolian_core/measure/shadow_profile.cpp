@@ -21,6 +21,7 @@
 namespace aeolian {
 namespace {
 
+constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
 constexpr double sun_diameter = 0.0093;          // [rad]
@@ -52,13 +53,23 @@ class Measurement {
     const Terminus terminus = without_jumps(locate_terminus(tone, *frame_.geometry, rough, spacing));
     std::vector<Eigen::Vector2d> pixels;
     for (const auto& station : terminus.stations) pixels.push_back(station.pixel);
-    if (pixels.size() < 20) throw Error("no shadow with a clear border");
+    if (pixels.size() < fewest_stations) throw Error("no shadow with a clear border");
     PhotoLight source{rough.side, {(photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0}, pixels};
     light_ = find_light(setup_, *frame_.geometry, source);
 
     const double half_width = smoothing_stations * spacing;
     Section raw = section_of(pixels, *frame_.geometry, light_);
     drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+    if (std::holds_alternative<PhotoSetup::Post>(setup_.light)) {
+      // The bed's height under the post's shadow, again, from what belongs to the bed.
+      source.terminus.clear();
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (!std::isnan(raw.z[i])) source.terminus.push_back(pixels[i]);
+      if (source.terminus.size() < fewest_stations) throw Error("no shadow with a clear border");
+      light_ = find_light(setup_, *frame_.geometry, source);
+      raw = section_of(pixels, *frame_.geometry, light_);
+      drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+    }
     const LocalQuadratic smooth = local_quadratic(raw.x, raw.z, half_width);
     const std::vector<double> scatter = scatter_sigma(raw.z, smooth, half_width, spacing);
 
@@ -82,7 +93,7 @@ class Measurement {
       profile.spread.push_back(std::abs(frame_.geometry->bed_point(station.upper, light_).z() -
                                         frame_.geometry->bed_point(station.lower, light_).z()));
     }
-    if (profile.x.size() < 20) throw Error("no shadow with a clear border");
+    if (profile.x.size() < fewest_stations) throw Error("no shadow with a clear border");
     const SharedError shared =
         shared_error(setup_, frame_, source, light_, profile.terminus_px, slope, !setup_.height.has_value());
     for (std::size_t i = 0; i < profile.x.size(); ++i)
