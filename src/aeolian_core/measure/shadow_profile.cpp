@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/measure/continuous_part.hpp"
+#include "aeolian_core/measure/edge_light.hpp"
 #include "aeolian_core/measure/local_quadratic.hpp"
 #include "aeolian_core/measure/photo_light.hpp"
 #include "aeolian_core/measure/profile_uncertainty.hpp"
@@ -25,6 +26,8 @@ namespace {
 constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
+constexpr double least_kept = 0.35;       // of the photo's width
+constexpr double most_shaded = 0.2;       // of the casting edge
 constexpr double most_doubled = 0.1;      // of the stations may have a second border
 constexpr double post_clearance = 4e-3;   // beside a post and its shadow [m]
 constexpr double sun_diameter = 0.0093;   // [rad]
@@ -111,7 +114,16 @@ class Measurement {
       profile.spread.push_back(std::abs(frame_.geometry->bed_point(station.upper, light_).z() -
                                         frame_.geometry->bed_point(station.lower, light_).z()));
     }
-    if (profile.x.size() < fewest_stations) throw Error("no shadow with a clear border");
+    const double kept = static_cast<double>(profile.x.size()) * spacing / (span.to - span.from);
+    if (profile.x.size() < fewest_stations || kept < least_kept)
+      throw Error(fmt::format(
+          "no shadow with a clear border: one line of it is found in {:.0f} % of the photo's width",
+          100 * kept));
+    // The span may reach beyond the straightedge's ends: only where its shadow was found is looked.
+    const double shaded =
+        shaded_share_of_edge(tone, *frame_.geometry, {profile.x.front(), profile.x.back()}, rough.side);
+    if (shaded > most_shaded)
+      throw Error(fmt::format("another shadow lies over {:.0f} % of the casting edge", 100 * shaded));
     const SharedError shared =
         shared_error(setup_, frame_, source, light_, profile.terminus_px, slope, !setup_.height.has_value());
     for (std::size_t i = 0; i < profile.x.size(); ++i)

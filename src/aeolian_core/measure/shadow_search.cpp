@@ -134,7 +134,7 @@ std::optional<Levels> first_levels(const Grid& grid) {
     darks.push_back(darkest);
     column.clear();
     for (int j = edge_rows; j < depth; ++j) column.push_back(grid.at(i, j));
-    lits.push_back(quantile_of(column, 0.7));
+    lits.push_back(quantile_of(column, 0.9));
   }
   if (darks.size() < 10) return {};
   return Levels{quantile_of(darks, 0.5), quantile_of(lits, 0.5)};
