@@ -41,8 +41,9 @@ class Measurement {
     const RoughTerminus rough =
         search_shadow(tone, photo_.width_px, photo_.height_px, *frame_.geometry, span, frame_.side);
     const double middle = (span.from + span.to) / 2;
-    const double pixel_size =
-        2e-5 / (frame_.geometry->pixel(middle + 1e-5, 0) - frame_.geometry->pixel(middle - 1e-5, 0)).norm();
+    const Eigen::Vector2d along =
+        frame_.geometry->pixel(middle + 1e-5, 0) - frame_.geometry->pixel(middle - 1e-5, 0);
+    const double pixel_size = 2e-5 / along.norm();
     const double spacing = std::max(setup_.grain_diameter.value_or(0), pixel_size);
     const Terminus terminus = without_jumps(locate_terminus(tone, *frame_.geometry, rough, spacing));
     std::vector<Eigen::Vector2d> pixels;
@@ -64,6 +65,7 @@ class Measurement {
     profile.scale = {1 / pixel_size, frame_.scale_sigma / pixel_size};
     profile.mark_px = frame_.mark_px;
     profile.remarks = frame_.remarks;
+    if (setup_.wind_px) profile.downwind = setup_.wind_px->dot(along) < 0 ? -1 : 1;
     std::vector<double> slope;
     for (std::size_t i = 0; i < raw.x.size(); ++i) {
       if (std::isnan(smooth.fit[i]) || std::isnan(scatter[i])) continue;
