@@ -104,7 +104,7 @@ TEST(ProfileStrip, HasTheSectionsHeightsInTheCellsUnderIt) {
 TEST(ProfileStrip, LeavesGapsUnknown) {
   ShadowProfile profile = section(0);
   for (auto* values : {&profile.x, &profile.y, &profile.z, &profile.sigma_z})
-    values->erase(values->begin() + 100, values->begin() + 160);  // 0.05 to 0.0795
+    values->erase(values->begin() + 100, values->begin() + 160);  // 0.0495 to 0.08 m
   profile.drop = 0.02;
   const HeightMap strip = profile_strip(profile, Eigen::Isometry3d::Identity(), 0.002);
   for (int ix = 0; ix < strip.geometry().nx(); ++ix) {
@@ -112,7 +112,7 @@ TEST(ProfileStrip, LeavesGapsUnknown) {
     for (int iy = 0; iy < strip.geometry().ny(); ++iy)
       known = known || std::isfinite(strip.layer(layer::elevation)[strip.geometry().index(ix, iy)]);
     const double x = strip.geometry().x(ix);
-    EXPECT_EQ(known, x < 0.0501 || x > 0.0789) << x;
+    EXPECT_EQ(known, x < 0.0495 || x > 0.08) << x;
   }
 }
 
