@@ -131,14 +131,16 @@ bool Draw::draw_bed() {
   ripples_ = RippleBed{};
   const double longest = std::min(0.2, 2 * reach_ / 2.6);
   if (longest <= 0.03) return false;
-  ripples_.crest_angle = uniform(-10, 10) * degree;
+  // A post's shadow must fall on a bed that is level along the crests, so these are set up with more care.
+  const bool post = notes_.light == LightNote::post;
+  ripples_.crest_angle = (post ? uniform(-2, 2) : uniform(-10, 10)) * degree;
   ripples_.wavelength = log_uniform(0.03, longest) * std::cos(ripples_.crest_angle);
   ripples_.relief = ripples_.wavelength / uniform(12, 25);
   ripples_.skew = uniform(0.2, 0.6);
   ripples_.phase = uniform(0, 2 * M_PI);
   ripples_.downwind = chance(0.5) ? 1 : -1;
   ripples_.slope_x = std::tan(scene_.inclination + uniform(-5, 5) * degree);
-  ripples_.slope_y = std::tan(uniform(-3, 3) * degree);
+  ripples_.slope_y = std::tan((post ? uniform(-0.3, 0.3) : uniform(-3, 3)) * degree);
 
   const auto clearance = [this](double across) {
     double least = 1;
@@ -209,11 +211,16 @@ bool Draw::place_post() {
   const Eigen::Matrix3d to_level = level_to_straightedge(scene_).transpose();
   const Eigen::Vector3d top = to_level * Eigen::Vector3d(scene_.post_x, 0, *scene_.post_height);
   if ((scene_.level_to_camera * top).z() < 0.02) return false;
-  const Eigen::Vector2d tip = true_pixel(scene_, true_tip_shadow(scene_));
+  const Eigen::Vector3d tip_shadow = scene_.level_to_camera * true_tip_shadow(scene_);
+  const Eigen::Vector2d tip = Lens(scene_.camera).pixel(tip_shadow.hnormalized());
+  // A direction far outside the frame may be folded back into it by the polynomial of the lens.
+  if (!in_frame(scene_.camera, tip, 20) ||
+      (Lens(scene_.camera).direction(tip) - tip_shadow.hnormalized()).norm() > 1e-6)
+    return false;
   const Eigen::Vector2d seen_top = true_pixel(scene_, top);
   const Eigen::Vector2d foot = true_pixel(scene_, to_level * Eigen::Vector3d(scene_.post_x, 0, 0));
   const double t = std::clamp((tip - foot).dot(seen_top - foot) / (seen_top - foot).squaredNorm(), 0.0, 1.0);
-  return in_frame(scene_.camera, tip, 20) && in_frame(scene_.camera, foot, 20) &&
+  return in_frame(scene_.camera, foot, 20) &&
          (tip - foot - t * (seen_top - foot)).norm() > 30;
 }
 

@@ -121,9 +121,11 @@ PhotoSetup take_notes(const ShadowScene& scene, const SceneLayout& layout, const
       break;
     }
     case LightNote::sun: {
-      // The sun stands clockwise of north by its azimuth; north is as far the other way from the sun.
+      // The sun stands clockwise of north by its azimuth; north is as far the other way from the sun,
       const Eigen::Vector3d towards = to_light(scene, scene.azimuth);
-      const Eigen::Vector3d north = Eigen::AngleAxisd(sun.azimuth, Eigen::Vector3d::UnitZ()) *
+      // drawn to half a degree.
+      const double drawn = sun.azimuth + 0.5 * degree * random->normal();
+      const Eigen::Vector3d north = Eigen::AngleAxisd(drawn, Eigen::Vector3d::UnitZ()) *
                                     Eigen::Vector3d(towards.x(), towards.y(), 0).normalized();
       setup.light = PhotoSetup::Sun{sun.unix_time, sun.latitude, sun.longitude, arrow(scene, north)};
       break;

@@ -1,6 +1,7 @@
 #include "aeolian_core/measure/camera_model.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -38,8 +39,9 @@ Distorted distort(const std::array<double, 8>& d, const Eigen::Vector2d& p) {
 }  // namespace
 
 Eigen::Vector2d CameraModel::pixel(const Eigen::Vector3d& point) const {
-  const Eigen::Vector2d seen = distort(distortion, point.head<2>() / point.z()).point;
-  return {fx * seen.x() + cx, fy * seen.y() + cy};
+  const Distorted seen = distort(distortion, point.head<2>() / point.z());
+  if (!(seen.derivative.determinant() > 0)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return {fx * seen.point.x() + cx, fy * seen.point.y() + cy};
 }
 
 Eigen::Vector3d CameraModel::ray(const Eigen::Vector2d& pixel) const {

@@ -2,6 +2,7 @@
 // half a picture.
 
 #include <array>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
@@ -102,7 +103,7 @@ std::vector<std::uint8_t> luma_of_inks(const std::vector<std::uint8_t>& cmyk, bo
       light[ink] = inverted ? value : 255 - value;
     }
     const double grey = 0.299 * light[0] + 0.587 * light[1] + 0.114 * light[2];
-    luma[i] = static_cast<std::uint8_t>(grey * light[3] / 255 + 0.5);
+    luma[i] = static_cast<std::uint8_t>(std::lround(grey * light[3] / 255));
   }
   return luma;
 }

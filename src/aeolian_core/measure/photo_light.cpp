@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "aeolian_core/measure/sun_position.hpp"
@@ -19,8 +20,8 @@ constexpr double angle_sigma = 0.1 * degree;  // of given angles
 constexpr double sun_sigma = 0.02 * degree;   // of the sun's elevation: refraction near the horizon
 constexpr double north_sigma = 0.5 * degree;  // of a direction drawn on the photo
 constexpr double pixel_sigma = 0.3;           // of a post's pixels
-constexpr double crest_turn = 10 * degree;    // of the crests against the normal of the edge
-constexpr double cross_slope = 0.01;          // of the bed along the crests
+constexpr double crest_turn = 2 * degree;     // of the crests against the normal of the edge, as the thesis asks
+constexpr double cross_slope = 0.005;         // of the bed along the crests
 
 const Light& checked(const Light& light, const char* source) {
   if (!(light.elevation >= lowest && light.elevation <= highest))
@@ -54,24 +55,30 @@ Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, const 
   return along({c * std::cos(travel), c * std::sin(travel), -std::sin(position.elevation)}, source.side);
 }
 
-/// Height of the bed at x [m] after the shadow's end, under a light.
+/// Height of the bed at x [m] after the shadow's end, under a light: a line through the stations about it.
 double bed_height(const PhotoGeometry& geometry, const Light& light,
                   const std::vector<Eigen::Vector2d>& terminus, double x) {
-  // The pixels stand in the order of x: the place is found by bisection, the height as a mean of its
-  // surroundings.
   std::size_t low = 0;
   std::size_t high = terminus.size();
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
     (geometry.bed_point(terminus[middle], light).x() > x ? high : low) = middle;
   }
-  const std::size_t begin = low < 5 ? 0 : low - 5;
-  const std::size_t end = std::min(terminus.size(), low + 6);
-  std::vector<double> heights;
-  for (std::size_t i = begin; i < end; ++i) heights.push_back(geometry.bed_point(terminus[i], light).z());
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
-                   heights.end());
-  return heights[heights.size() / 2];
+  constexpr std::size_t reach = 6;
+  const std::size_t begin = low < reach ? 0 : low - reach;
+  const std::size_t end = std::min(terminus.size(), low + reach + 1);
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  Eigen::AlignedBox1d known;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Eigen::Vector3d point = geometry.bed_point(terminus[i], light);
+    const Eigen::Vector2d row(1, point.x() - x);
+    normal += row * row.transpose();
+    right += row * point.z();
+    known.extend(Eigen::AlignedBox1d::VectorType(point.x()));
+  }
+  const Eigen::Vector2d line = normal.ldlt().solve(right);
+  return line[0] + line[1] * (std::clamp(x, known.min()[0], known.max()[0]) - x);
 }
 
 Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, const PhotoLight& source,

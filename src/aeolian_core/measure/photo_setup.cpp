@@ -42,7 +42,7 @@ Eigen::Vector2d pixel(YamlSection& section, const std::string& key) {
 
 /// A direction on the photo.
 Eigen::Vector2d direction(YamlSection& section, const std::string& key) {
-  const Eigen::Vector2d result = pixel(section, key);
+  Eigen::Vector2d result = pixel(section, key);
   if (result.isZero()) section.refuse(key, "must not be zero");
   return result;
 }

@@ -54,14 +54,14 @@ std::optional<MarkFault> fault_in_row(const Marks& marks, std::vector<std::size_
 
 std::optional<MarkFault> contradiction(const Marks& marks) {
   if (marks.size() < 2) return MarkFault{0, "is the only mark, there must be at least two"};
-  if (const auto fault = doubled(marks)) return fault;
+  if (auto fault = doubled(marks)) return fault;
   std::map<std::optional<double>, std::vector<std::size_t>> rows;
   for (std::size_t i = 0; i < marks.size(); ++i) rows[marks[i].y].push_back(i);
   bool spread = false;
   for (const auto& [y, row] : rows) {
     if (row.size() < 2) continue;
     spread = true;
-    if (const auto fault = fault_in_row(marks, row)) return fault;
+    if (auto fault = fault_in_row(marks, row)) return fault;
   }
   if (!spread && std::all_of(marks.begin(), marks.end(), [&](const auto& m) { return m.x == marks[0].x; }))
     return MarkFault{0, "has the x of all others, there must be two different"};

@@ -21,8 +21,14 @@
 namespace aeolian {
 namespace {
 
+constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
+constexpr double sun_diameter = 0.0093;          // [rad]
+constexpr double usual_grain = 0.5e-3;           // where none is given [m]
+constexpr double grain_relief = 0.3;             // rms height of the grains about the bed, in diameters
+constexpr double lens_px = 1.3;                  // standard deviation of a usual point spread
+constexpr double softest = 1.4;                  // in expected standard deviations
 constexpr double smoothing_stations = 5;  // half width of the regression along the profile
 
 double mean(const std::vector<double>& values) {
@@ -48,13 +54,23 @@ class Measurement {
     const Terminus terminus = without_jumps(locate_terminus(tone, *frame_.geometry, rough, spacing));
     std::vector<Eigen::Vector2d> pixels;
     for (const auto& station : terminus.stations) pixels.push_back(station.pixel);
-    if (pixels.size() < 20) throw Error("no shadow with a clear border");
+    if (pixels.size() < fewest_stations) throw Error("no shadow with a clear border");
     PhotoLight source{rough.side, {(photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0}, pixels};
     light_ = find_light(setup_, *frame_.geometry, source);
 
     const double half_width = smoothing_stations * spacing;
     Section raw = section_of(pixels, *frame_.geometry, light_);
     drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+    if (std::holds_alternative<PhotoSetup::Post>(setup_.light)) {
+      // The bed's height under the post's shadow, again, from what belongs to the bed.
+      source.terminus.clear();
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (!std::isnan(raw.z[i])) source.terminus.push_back(pixels[i]);
+      if (source.terminus.size() < fewest_stations) throw Error("no shadow with a clear border");
+      light_ = find_light(setup_, *frame_.geometry, source);
+      raw = section_of(pixels, *frame_.geometry, light_);
+      drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+    }
     const LocalQuadratic smooth = local_quadratic(raw.x, raw.z, half_width);
     const std::vector<double> scatter = scatter_sigma(raw.z, smooth, half_width, spacing);
 
@@ -79,7 +95,7 @@ class Measurement {
       profile.spread.push_back(std::abs(frame_.geometry->bed_point(station.upper, light_).z() -
                                         frame_.geometry->bed_point(station.lower, light_).z()));
     }
-    if (profile.x.size() < 20) throw Error("no shadow with a clear border");
+    if (profile.x.size() < fewest_stations) throw Error("no shadow with a clear border");
     const SharedError shared =
         shared_error(setup_, frame_, source, light_, profile.terminus_px, slope, !setup_.height.has_value());
     for (std::size_t i = 0; i < profile.x.size(); ++i)
@@ -89,6 +105,7 @@ class Measurement {
     profile.relative_sigma = std::hypot(2 * shared.elevation / std::sin(2 * light_.elevation),
                                         std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
     finish(profile);
+    require_sharp(profile, terminus);
     return profile;
   }
 
@@ -119,6 +136,20 @@ class Measurement {
     const std::vector<bool> part = continuous_part(raw.x, z, steepest_bed, 2 * spacing);
     for (std::size_t i = 0; i < z.size(); ++i)
       if (!part[i]) raw.z[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// A border much softer than the sun's disc, the grains and a lens make it is not the straightedge's, or not
+  /// in focus.
+  static void require_sharp(const ShadowProfile& profile, const Terminus& terminus) {
+    const double sine = std::sin(profile.elevation.value);
+    const double grain = profile.grain_diameter > 0 ? profile.grain_diameter : usual_grain;
+    const double penumbra = profile.drop * sun_diameter / (sine * sine) / 4;  // of a disc: a quarter of its width
+    const double grains = grain_relief * grain / std::tan(profile.elevation.value);
+    const double expected = std::hypot(std::hypot(penumbra, grains) / terminus.pixel_size, lens_px);
+    if (terminus.width_px > softest * expected)
+      throw Error(fmt::format("blurred, or not the straightedge's shadow alone: its border rises over {:.1f} px, where the "
+                              "sun's disc, grains and lens make {:.1f} px (standard deviations)",
+                              terminus.width_px, expected));
   }
 
   /// Heights from where they are reported.

@@ -16,6 +16,8 @@ constexpr int most_columns = 600;
 constexpr int most_rows = 1200;
 constexpr int edge_rows = 2;            // beside the bright bar, not looked at
 constexpr double least_contrast = 1.5;  // sunlit over shaded, linear light
+constexpr double least_darker = 0.4;    // light inside the border over that further in
+constexpr float least_light = 0.02F;    // linear, of a lit bed that can be told from noise
 constexpr double reach = 6e-3;          // so far on either side of the border the light must be right [m]
 constexpr int least_shadow = 3;         // rows
 constexpr float hidden_cost = 0.4F;
@@ -246,12 +248,22 @@ struct Verdict {
   int found = 0;       // columns with a clear border
   int off_photo = 0;   // columns that are dark to the photo's border
   double clipped = 0;  // share of over-exposed bed beyond the border
+  double darker = 1;    // light just inside the border over that further in
 };
+
+/// Upper quartile of the light of the dark rows of a column that end at row `end`; nothing for fewer than four.
+std::optional<float> light_further_in(const Grid& grid, int i, int end, float half_light) {
+  std::vector<float> rows;
+  for (int j = end - 1; j >= edge_rows && grid.at(i, j) < half_light; --j) rows.push_back(grid.at(i, j));
+  if (rows.size() < 4) return {};
+  return quantile_of(rows, 0.75);
+}
 
 Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<Levels>& levels, int side) {
   Verdict verdict;
   verdict.terminus = {side, grid.start, grid.step, grid.row, {}};
   const int zone = std::max(6, static_cast<int>(3e-3 / grid.row));
+  std::vector<float> darker;
   std::size_t beyond = 0;
   std::size_t full = 0;
   for (int i = 0; i < grid.columns; ++i) {
@@ -265,6 +277,8 @@ Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<
     if (dark && outer && sunlit(*outer, level) > 0.65F) {
       y = end * grid.row;
       ++verdict.found;
+      if (const auto further = light_further_in(grid, i, end - zone, (level.dark + level.lit) / 2))
+        darker.push_back(*inner / *further);
     }
     verdict.terminus.y.push_back(y);
     for (int j = end + 2; j < std::min(end + 2 + zone, grid.depth_of(i)); ++j) {
@@ -272,6 +286,7 @@ Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<
       if (grid.at(i, j) > clipped) ++full;
     }
   }
+  verdict.darker = darker.size() * 3 > static_cast<std::size_t>(verdict.found) ? static_cast<double>(quantile_of(darker, 0.5)) : 1;
   verdict.clipped = beyond > 0 ? static_cast<double>(full) / static_cast<double>(beyond) : 0;
   return verdict;
 }
@@ -282,6 +297,9 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   const Grid grid = sample(tone, width, height, geometry, span, side);
   const auto typical = first_levels(grid);
   if (!typical) throw Error("no shadow: the photo ends beside the casting edge");
+  if (typical->lit < least_light)
+    throw Error(fmt::format("under-exposed: the bed has {:.1f} % of full light", 100 * typical->lit));
+  if (typical->lit > clipped) throw Error("over-exposed: most of the bed is white");
   if (!(typical->lit > least_contrast * typical->dark))
     throw Error(
         fmt::format("no shadow: beside the casting edge the photo is {:.2f} as bright as the bed beyond",
@@ -294,6 +312,8 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   if (verdict.clipped > most_clipped)
     throw Error(fmt::format("over-exposed: {:.0f} % of the sunlit bed beside the shadow is white",
                             100 * verdict.clipped));
+  if (verdict.darker < least_darker)
+    throw Error("something darker than the shadow lies over its border");
   if (verdict.off_photo > grid.columns / 2) throw Error("the far border of the shadow is outside the photo");
   if (verdict.found < std::max(20, grid.columns * 3 / 10))
     throw Error(fmt::format("no shadow with a clear border: it is found in {:.0f} % of the photo's width",

@@ -148,8 +148,8 @@ class YamlSection {
   }
 
  private:
-  YamlSection(YAML::Node node, std::string path, std::string name)
-      : node_(std::move(node)), path_(std::move(path)), name_(std::move(name)) {
+  YamlSection(const YAML::Node& node, std::string path, std::string name)
+      : node_(node), path_(std::move(path)), name_(std::move(name)) {
     if (!node_.IsMap())
       throw Error(fmt::format("{}:{}: {} must be a section of 'key: value' lines", path_,
                               std::max(node_.Mark().line, 0) + 1, name_.empty() ? "the file" : name_));

@@ -43,6 +43,7 @@ std::string output_stem(const std::string& photo, const std::string& out) {
 
 std::vector<PhotoFiles> list_photos(const std::vector<std::string>& arguments, const std::string& out) {
   std::vector<PhotoFiles> list;
+  list.reserve(arguments.size());
   for (const std::string& argument : arguments)
     list.push_back(fs::is_directory(argument) ? photos_in(argument) : PhotoFiles{"", {argument}});
   std::map<std::string, std::string> writers;

@@ -222,7 +222,7 @@ std::string write_strip(const PrintedStrip& strip, const std::string& pdf) {
     if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
       throw Error("strip '" + pdf + "': " + cairo_status_to_string(status));
   });
-  const std::string yaml = std::filesystem::path(pdf).replace_extension(".yaml").string();
+  std::string yaml = std::filesystem::path(pdf).replace_extension(".yaml").string();
   write_text_atomically(yaml, strip.yaml());
   return yaml;
 }

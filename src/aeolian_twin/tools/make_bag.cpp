@@ -230,13 +230,14 @@ int run(int argc, char** argv) {
   std::string bag;
   app.add_option("MANIFEST", manifest, "YAML file that lists the files")->required();
   app.add_option("BAG", bag, "bag to write")->required();
-  return run_program("make_bag", app, argc, argv, [&] {
-    fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
-    return 0;
-  });
+  if (const auto code = parse(app, argc, argv)) return *code;
+  fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
+  return 0;
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) { return aeolian::run(argc, argv); }
+int main(int argc, char** argv) {
+  return aeolian::run_program("make_bag", [&] { return aeolian::run(argc, argv); });
+}

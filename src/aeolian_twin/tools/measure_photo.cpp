@@ -150,19 +150,20 @@ int run(int argc, char** argv) {
       app.add_option("--print-strip", strip, "writes a strip of markers for the straightedge as a PDF");
   app.add_option("--strip-length-mm", length_mm, "length of that strip, default 500")->needs(print);
   app.add_option("--marker-mm", marker_mm, "side of its markers, default 14")->needs(print);
-  return run_program("measure_photo", app, argc, argv, [&] {
-    if (!strip.empty()) {
-      print_strip(strip, length_mm, marker_mm);
-      if (photos.empty()) return 0;
-    }
-    if (photos.empty()) throw Error("there is no PHOTO, see --help");
-    if (setup.empty()) throw Error("--setup is missing, see --help");
-    PhotoMeasurer measurer(setup, out, mode == "full" ? ProfileMode::full : ProfileMode::overhead);
-    return measurer.run(list_photos(photos, out)) ? 0 : 1;
-  });
+  if (const auto code = parse(app, argc, argv)) return *code;
+  if (!strip.empty()) {
+    print_strip(strip, length_mm, marker_mm);
+    if (photos.empty()) return 0;
+  }
+  if (photos.empty()) throw Error("there is no PHOTO, see --help");
+  if (setup.empty()) throw Error("--setup is missing, see --help");
+  PhotoMeasurer measurer(setup, out, mode == "full" ? ProfileMode::full : ProfileMode::overhead);
+  return measurer.run(list_photos(photos, out)) ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) { return aeolian::run(argc, argv); }
+int main(int argc, char** argv) {
+  return aeolian::run_program("measure_photo", [&] { return aeolian::run(argc, argv); });
+}

@@ -233,16 +233,17 @@ int run(int argc, char** argv) {
   const auto* seed_option = app.add_option("--seed", seed, "decides everything random; overrides the file's");
   const auto* minutes_option = app.add_option("--minutes", minutes, "length of the day; overrides the file's")
                                    ->check(CLI::Range(0.001, 1e4));
-  return run_program("simulate_field", app, argc, argv, [&] {
-    FieldDay day = read_field_day(config);
-    if (seed_option->count() > 0) day.seed = seed;
-    if (minutes_option->count() > 0) day.duration = 60 * minutes;
-    simulate(day, directory);
-    return 0;
-  });
+  if (const auto code = parse(app, argc, argv)) return *code;
+  FieldDay day = read_field_day(config);
+  if (seed_option->count() > 0) day.seed = seed;
+  if (minutes_option->count() > 0) day.duration = 60 * minutes;
+  simulate(day, directory);
+  return 0;
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) { return aeolian::run(argc, argv); }
+int main(int argc, char** argv) {
+  return aeolian::run_program("simulate_field", [&] { return aeolian::run(argc, argv); });
+}

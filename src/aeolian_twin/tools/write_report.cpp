@@ -253,14 +253,15 @@ int run(int argc, char** argv) {
       ->required();
   app.add_option("--out", directory, "directory for index.html, created when it does not exist")->required();
   app.add_option("--truth", truth, "directory that simulate_field wrote: compares with the true surface too");
-  return run_program("write_report", app, argc, argv, [&] {
-    write_report(RunReader(bag, truth).read(), directory);
-    std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
-    return 0;
-  });
+  if (const auto code = parse(app, argc, argv)) return *code;
+  write_report(RunReader(bag, truth).read(), directory);
+  std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
+  return 0;
 }
 
 }  // namespace
 }  // namespace aeolian
 
-int main(int argc, char** argv) { return aeolian::run(argc, argv); }
+int main(int argc, char** argv) {
+  return aeolian::run_program("write_report", [&] { return aeolian::run(argc, argv); });
+}

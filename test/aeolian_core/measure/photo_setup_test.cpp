@@ -1,5 +1,6 @@
 #include "aeolian_core/measure/photo_setup.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -78,6 +79,13 @@ wind_px: [1, -0.5]
   EXPECT_EQ(post.tip_px, Eigen::Vector2d(210, 400));
   EXPECT_NEAR(setup.grain_diameter.value(), 0.00027, 1e-15);
   EXPECT_EQ(setup.wind_px.value(), Eigen::Vector2d(1, -0.5));
+}
+
+TEST(PhotoSetupExample, CanBeRead) {
+  const PhotoSetup setup = read_photo_setup(AEOLIAN_REPOSITORY "/config/measure_photo.example.yaml");
+  EXPECT_TRUE(setup.camera);
+  EXPECT_TRUE(setup.markers);
+  EXPECT_TRUE(std::holds_alternative<PhotoSetup::Post>(setup.light));
 }
 
 TEST_F(PhotoSetupFile, TheLeastThatIsNeeded) {
