@@ -152,12 +152,13 @@ inline std::string shadow_setup(const FieldDay& day) {
   return fmt::format(
       "# The light over the straightedge of a virtual field day; the camera's place is in tf.\n"
       "light: {{elevation_deg: {:.6g}, azimuth_deg: {:.6g}}}\n"
-      "straightedge: {{inclination_deg: {:.6g}}}\n"
+      "straightedge: {{inclination_deg: {:.6g}, shadow_side: {}}}\n"
       "grain_diameter_mm: {:.6g}\n"
       "wind_px: [{:.6f}, {:.6f}]\n",
       radians_to_degrees(std::asin(-day.light.z())),
       radians_to_degrees(std::atan2(day.light.dot(along), std::abs(across))),
-      radians_to_degrees(std::asin(edge(2, 0))), 1e3 * day.grain.diameter, on_photo.x(), on_photo.y());
+      radians_to_degrees(std::asin(edge(2, 0))), across > 0 ? 1 : -1, 1e3 * day.grain.diameter, on_photo.x(),
+      on_photo.y());
 }
 
 /// Reads the file; throws Error that names what is wrong with it.
