@@ -220,8 +220,7 @@ bool Draw::place_post() {
   const Eigen::Vector2d seen_top = true_pixel(scene_, top);
   const Eigen::Vector2d foot = true_pixel(scene_, to_level * Eigen::Vector3d(scene_.post_x, 0, 0));
   const double t = std::clamp((tip - foot).dot(seen_top - foot) / (seen_top - foot).squaredNorm(), 0.0, 1.0);
-  return in_frame(scene_.camera, foot, 20) &&
-         (tip - foot - t * (seen_top - foot)).norm() > 30;
+  return in_frame(scene_.camera, foot, 20) && (tip - foot - t * (seen_top - foot)).norm() > 30;
 }
 
 double Draw::wavelength_along_section() const {

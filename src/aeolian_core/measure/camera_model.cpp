@@ -40,7 +40,8 @@ Distorted distort(const std::array<double, 8>& d, const Eigen::Vector2d& p) {
 
 Eigen::Vector2d CameraModel::pixel(const Eigen::Vector3d& point) const {
   const Distorted seen = distort(distortion, point.head<2>() / point.z());
-  if (!(seen.derivative.determinant() > 0)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!(seen.derivative.determinant() > 0))
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   return {fx * seen.point.x() + cx, fy * seen.point.y() + cy};
 }
 

@@ -19,8 +19,8 @@ struct CameraModel {
   double cy = 0;
   std::array<double, 8> distortion{};  ///< k1, k2, p1, p2, k3, k4, k5, k6
 
-  /// Where a point in front of the camera (z > 0, any length unit) is seen [px]; NaN beyond the radius at which
-  /// the distortion folds back.
+  /// Where a point in front of the camera (z > 0, any length unit) is seen [px]; NaN beyond the radius at
+  /// which the distortion folds back.
   Eigen::Vector2d pixel(const Eigen::Vector3d& point) const;
   /// The direction (z = 1) that is seen in a pixel, good to 1e-9 px. Throws Error where the distortion cannot
   /// be undone: beyond the radius at which the model folds back.

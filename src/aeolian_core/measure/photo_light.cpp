@@ -20,8 +20,8 @@ constexpr double angle_sigma = 0.1 * degree;  // of given angles
 constexpr double sun_sigma = 0.02 * degree;   // of the sun's elevation: refraction near the horizon
 constexpr double north_sigma = 0.5 * degree;  // of a direction drawn on the photo
 constexpr double pixel_sigma = 0.3;           // of a post's pixels
-constexpr double crest_turn = 2 * degree;     // of the crests against the normal of the edge, as the thesis asks
-constexpr double cross_slope = 0.005;         // of the bed along the crests
+constexpr double crest_turn = 2 * degree;  // of the crests against the normal of the edge, as the thesis asks
+constexpr double cross_slope = 0.005;      // of the bed along the crests
 
 const Light& checked(const Light& light, const char* source) {
   if (!(light.elevation >= lowest && light.elevation <= highest))

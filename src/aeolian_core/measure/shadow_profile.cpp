@@ -13,6 +13,7 @@
 #include "aeolian_core/measure/local_quadratic.hpp"
 #include "aeolian_core/measure/photo_light.hpp"
 #include "aeolian_core/measure/profile_uncertainty.hpp"
+#include "aeolian_core/measure/second_border.hpp"
 #include "aeolian_core/measure/setup_geometry.hpp"
 #include "aeolian_core/measure/shadow_search.hpp"
 #include "aeolian_core/measure/shadow_terminus.hpp"
@@ -24,15 +25,32 @@ namespace {
 constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
-constexpr double sun_diameter = 0.0093;          // [rad]
-constexpr double usual_grain = 0.5e-3;           // where none is given [m]
-constexpr double grain_relief = 0.3;             // rms height of the grains about the bed, in diameters
-constexpr double lens_px = 1.3;                  // standard deviation of a usual point spread
-constexpr double softest = 1.4;                  // in expected standard deviations
+constexpr double most_doubled = 0.1;      // of the stations may have a second border
+constexpr double post_clearance = 4e-3;   // beside a post and its shadow [m]
+constexpr double sun_diameter = 0.0093;   // [rad]
+constexpr double usual_grain = 0.5e-3;    // where none is given [m]
+constexpr double grain_relief = 0.3;      // rms height of the grains about the bed, in diameters
+constexpr double lens_px = 1.3;           // standard deviation of a usual point spread
+constexpr double softest = 1.4;           // in expected standard deviations
 constexpr double smoothing_stations = 5;  // half width of the regression along the profile
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
+                           const Eigen::Vector2d& to) {
+  const Eigen::Vector2d way = to - from;
+  const double length = way.squaredNorm();
+  const double t = length > 0 ? std::clamp((point - from).dot(way) / length, 0.0, 1.0) : 0;
+  return (point - from - t * way).norm();
 }
 
 class Measurement {
@@ -106,18 +124,24 @@ class Measurement {
                                         std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
     finish(profile);
     require_sharp(profile, terminus);
+    const double gap = (2.5 * terminus.width_px + 1) * terminus.pixel_size;
+    if (share_with_second_border(tone, *frame_.geometry, profile.terminus_px, rough.side, gap,
+                                 terminus.pixel_size) > most_doubled)
+      throw Error(
+          "two shadows: a second border runs along that of the straightedge's shadow, as of two lights");
     return profile;
   }
 
  private:
-  /// The stations whose places on the plane of the top face form one line.
+  /// The stations whose places on the plane of the top face form one line, without those that a post touches.
   Terminus without_jumps(const Terminus& terminus) const {
+    const std::vector<bool> beside = beside_post(terminus);
     std::vector<double> x;
     std::vector<double> y;
-    for (const auto& station : terminus.stations) {
-      const Eigen::Vector2d plan = frame_.geometry->top_face(station.pixel);
+    for (std::size_t i = 0; i < terminus.stations.size(); ++i) {
+      const Eigen::Vector2d plan = frame_.geometry->top_face(terminus.stations[i].pixel);
       x.push_back(plan.x());
-      y.push_back(plan.y());
+      y.push_back(beside[i] ? std::numeric_limits<double>::quiet_NaN() : plan.y());
     }
     const std::vector<bool> part = continuous_part(x, y, steepest_border, 4 * terminus.pixel_size);
     Terminus result = terminus;
@@ -138,18 +162,47 @@ class Measurement {
       if (!part[i]) raw.z[i] = std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// A border much softer than the sun's disc, the grains and a lens make it is not the straightedge's, or not
-  /// in focus.
+  /// Which stations the post or its shadow touches. Seen from above both start at the post's foot; for the
+  /// shadow the bed is taken to be level at its mean depth, for which a first light will do.
+  std::vector<bool> beside_post(const Terminus& terminus) const {
+    std::vector<bool> beside(terminus.stations.size(), false);
+    const auto* post = std::get_if<PhotoSetup::Post>(&setup_.light);
+    if (post == nullptr) return beside;
+    const PhotoGeometry& geometry = *frame_.geometry;
+    std::vector<double> displacement;
+    for (const auto& station : terminus.stations)
+      displacement.push_back(std::abs(geometry.top_face(station.pixel).y()));
+    const double shadow = median(displacement);
+    const double way = std::abs(geometry.top_face(post->tip_px).y()) - shadow;
+    const double depth = way > 0 ? shadow * post->height / way : 0;
+
+    const double foot = geometry.top_face(post->base_px).x();
+    const Eigen::Vector2d top =
+        geometry.top_face(frame_.pose ? frame_.pose->pixel({foot, 0, post->height}) : post->base_px);
+    const Eigen::Vector2d tip = geometry.at_level(post->tip_px, -depth).head<2>();
+    const double clear = post_clearance + setup_.grain_diameter.value_or(0);
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      const Eigen::Vector2d& pixel = terminus.stations[i].pixel;
+      beside[i] = distance_to_segment(geometry.top_face(pixel), {foot, 0}, top) < clear ||
+                  distance_to_segment(geometry.at_level(pixel, -depth).head<2>(), {foot, 0}, tip) < clear;
+    }
+    return beside;
+  }
+
+  /// A border much softer than the sun's disc, the grains and a lens make it is not the straightedge's, or
+  /// not in focus.
   static void require_sharp(const ShadowProfile& profile, const Terminus& terminus) {
     const double sine = std::sin(profile.elevation.value);
     const double grain = profile.grain_diameter > 0 ? profile.grain_diameter : usual_grain;
-    const double penumbra = profile.drop * sun_diameter / (sine * sine) / 4;  // of a disc: a quarter of its width
+    const double penumbra =
+        profile.drop * sun_diameter / (sine * sine) / 4;  // of a disc: a quarter of its width
     const double grains = grain_relief * grain / std::tan(profile.elevation.value);
     const double expected = std::hypot(std::hypot(penumbra, grains) / terminus.pixel_size, lens_px);
     if (terminus.width_px > softest * expected)
-      throw Error(fmt::format("blurred, or not the straightedge's shadow alone: its border rises over {:.1f} px, where the "
-                              "sun's disc, grains and lens make {:.1f} px (standard deviations)",
-                              terminus.width_px, expected));
+      throw Error(fmt::format(
+          "blurred, or not the straightedge's shadow alone: its border rises over {:.1f} px, where the "
+          "sun's disc, grains and lens make {:.1f} px (standard deviations)",
+          terminus.width_px, expected));
   }
 
   /// Heights from where they are reported.

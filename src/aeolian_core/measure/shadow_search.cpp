@@ -248,10 +248,11 @@ struct Verdict {
   int found = 0;       // columns with a clear border
   int off_photo = 0;   // columns that are dark to the photo's border
   double clipped = 0;  // share of over-exposed bed beyond the border
-  double darker = 1;    // light just inside the border over that further in
+  double darker = 1;   // light just inside the border over that further in
 };
 
-/// Upper quartile of the light of the dark rows of a column that end at row `end`; nothing for fewer than four.
+/// Upper quartile of the light of the dark rows of a column that end at row `end`; nothing for fewer than
+/// four.
 std::optional<float> light_further_in(const Grid& grid, int i, int end, float half_light) {
   std::vector<float> rows;
   for (int j = end - 1; j >= edge_rows && grid.at(i, j) < half_light; --j) rows.push_back(grid.at(i, j));
@@ -286,7 +287,9 @@ Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<
       if (grid.at(i, j) > clipped) ++full;
     }
   }
-  verdict.darker = darker.size() * 3 > static_cast<std::size_t>(verdict.found) ? static_cast<double>(quantile_of(darker, 0.5)) : 1;
+  verdict.darker = darker.size() * 3 > static_cast<std::size_t>(verdict.found)
+                       ? static_cast<double>(quantile_of(darker, 0.5))
+                       : 1;
   verdict.clipped = beyond > 0 ? static_cast<double>(full) / static_cast<double>(beyond) : 0;
   return verdict;
 }
@@ -312,8 +315,7 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   if (verdict.clipped > most_clipped)
     throw Error(fmt::format("over-exposed: {:.0f} % of the sunlit bed beside the shadow is white",
                             100 * verdict.clipped));
-  if (verdict.darker < least_darker)
-    throw Error("something darker than the shadow lies over its border");
+  if (verdict.darker < least_darker) throw Error("something darker than the shadow lies over its border");
   if (verdict.off_photo > grid.columns / 2) throw Error("the far border of the shadow is outside the photo");
   if (verdict.found < std::max(20, grid.columns * 3 / 10))
     throw Error(fmt::format("no shadow with a clear border: it is found in {:.0f} % of the photo's width",
