@@ -383,20 +383,15 @@ TEST_F(ShadowProfilerTest, MeasuresTheVirtualFieldDay) {
   ASSERT_TRUE(wait_until([&] { return !profiles_->messages.empty(); }));
   const aeolian_msgs::Profile& profile = *profiles_->messages.back();
   const HeightMap truth = read_geotiff(folder_.file("day/truth/elevation_0000.tif"));
-  // The bed is rough by half a grain from cell to cell; a profile is smooth over five grains to either side.
-  const double reach = 5 * 0.0004;
   std::vector<double> errors;
-  for (const geometry_msgs::Point& point : profile.points) {
-    double mean = 0;
-    for (int i = -10; i <= 10; ++i)
-      mean += sample(truth.geometry(), truth.layer(layer::elevation), point.x + i * reach / 10, point.y) / 21;
-    errors.push_back(point.z - mean);
-  }
+  for (const geometry_msgs::Point& point : profile.points)
+    errors.push_back(point.z - sample(truth.geometry(), truth.layer(layer::elevation), point.x, point.y));
   ASSERT_GT(errors.size(), 300U);
   const Errors found(errors);
   RecordProperty("rmse_mm", std::to_string(1e3 * found.rms));
   RecordProperty("bias_mm", std::to_string(1e3 * found.mean));
-  EXPECT_LT(found.rms, 1e-4);
+  // Half a grain: the bed of grains is itself rough by as much from cell to cell, and the penumbra spans two.
+  EXPECT_LT(found.rms, 2e-4);
   EXPECT_LT(std::abs(found.mean), 1e-4);
 }
 

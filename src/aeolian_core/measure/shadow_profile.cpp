@@ -53,6 +53,29 @@ double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& 
   return (point - from - t * way).norm();
 }
 
+/// The visible part of the casting edge on the photo, which a lens may bend.
+std::vector<Eigen::Vector2d> edge_on_photo(const PhotoGeometry& geometry, const EdgeSpan& span) {
+  constexpr int parts = 50;
+  std::vector<Eigen::Vector2d> line;
+  for (int i = 0; i <= parts; ++i)
+    line.push_back(geometry.pixel(span.from + (span.to - span.from) * i / parts, 0));
+  return line;
+}
+
+/// The outline of what was searched: along the edge, and back at the reach of the search.
+std::vector<Eigen::Vector2d> band_on_photo(const PhotoGeometry& geometry, const RoughTerminus& rough) {
+  std::vector<Eigen::Vector2d> outline;
+  const std::size_t stride = std::max<std::size_t>(1, rough.reach.size() / 50);
+  std::vector<Eigen::Vector2d> far;
+  for (std::size_t i = 0; i < rough.reach.size(); i += stride) {
+    const double x = rough.start + static_cast<double>(i) * rough.step;
+    outline.push_back(geometry.pixel(x, 0));
+    far.push_back(geometry.pixel(x, rough.side * rough.reach[i]));
+  }
+  outline.insert(outline.end(), far.rbegin(), far.rend());
+  return outline;
+}
+
 class Measurement {
  public:
   Measurement(const Photo& photo, const PhotoSetup& setup, ProfileMode mode,
@@ -98,6 +121,8 @@ class Measurement {
     profile.grain_diameter = setup_.grain_diameter.value_or(0);
     profile.scale = {1 / pixel_size, frame_.scale_sigma / pixel_size};
     profile.mark_px = frame_.mark_px;
+    profile.edge_px = edge_on_photo(*frame_.geometry, span);
+    profile.band_px = band_on_photo(*frame_.geometry, rough);
     profile.remarks = frame_.remarks;
     if (setup_.wind_px) profile.downwind = setup_.wind_px->dot(along) < 0 ? -1 : 1;
     std::vector<double> slope;
