@@ -162,6 +162,14 @@ void check_sides(const YamlSection& section, const PhotoSetup& setup) {
   if (left && right)
     section.refuse(setup.scale.empty() ? "markers" : "scale_px_mm",
                    "has y of both signs, must be on one side of the casting edge (y = 0)");
+  if ((setup.shadow_side > 0 && left) || (setup.shadow_side < 0 && right))
+    section.refuse("shadow_side", "must be away from the marks: the top face lies on the light's side");
+}
+
+int read_shadow_side(YamlSection& section) {
+  const int side = section.integer("shadow_side", -1, 1);
+  if (side == 0) section.refuse("shadow_side", "must be 1 (towards y > 0) or -1");
+  return side;
 }
 
 void read_straightedge(YamlSection section, PhotoSetup& setup) {
@@ -173,6 +181,7 @@ void read_straightedge(YamlSection section, PhotoSetup& setup) {
   }
   if (section.has("scale_px_mm")) setup.scale = read_scale(section);
   if (section.has("markers")) setup.markers = read_markers(section.section("markers"));
+  if (section.has("shadow_side")) setup.shadow_side = read_shadow_side(section);
   check_sides(section, setup);
   if (section.has("inclination_deg")) setup.inclination = degree * section.number("inclination_deg", -45, 45);
   if (section.has("height_mm")) setup.height = millimetre * section.positive("height_mm", 10'000);

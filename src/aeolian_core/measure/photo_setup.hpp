@@ -53,6 +53,7 @@ struct PhotoSetup {
   std::vector<Eigen::Vector2d> line_px;  ///< points on the casting edge
   std::vector<ScaleMark> scale;
   std::optional<Markers> markers;
+  int shadow_side = 0;           ///< the shadow falls towards y > 0 (+1) or y < 0 (-1); 0: as the marks tell
   double inclination = 0;        ///< of the straightedge, rise towards larger x [rad]
   std::optional<double> height;  ///< of the casting edge at x = 0 over the bed's mean plane [m]
   std::variant<std::monostate, Angles, Post, Sun> light;

@@ -222,6 +222,25 @@ void overhead_geometry(const PhotoSetup& setup, const std::vector<PlanePoint>& p
   result.geometry = std::make_shared<OverheadGeometry>(origin, along, scale, setup.inclination);
 }
 
+/// Takes from positions on the top face where it is, and with that where the shadow falls.
+void place_face(const std::vector<Eigen::Vector2d>& positions, int shadow_side, SetupGeometry& result) {
+  result.side = shadow_side;
+  if (positions.empty()) return;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& position : positions) mean += position / static_cast<double>(positions.size());
+  result.middle = mean.x();
+  if (shadow_side == 0 && std::abs(mean.y()) > 1e-3) result.side = mean.y() > 0 ? -1 : 1;
+}
+
+/// Where the setup says that marks are, without looking for them.
+std::vector<Eigen::Vector2d> noted_positions(const PhotoSetup& setup) {
+  std::vector<Eigen::Vector2d> positions;
+  for (const auto& mark : setup.scale) positions.emplace_back(mark.x, mark.y.value_or(0));
+  if (setup.markers)
+    for (const auto& centre : setup.markers->centres) positions.push_back(centre.position);
+  return positions;
+}
+
 }  // namespace
 
 SetupGeometry setup_geometry(const Photo& photo, const PhotoSetup& setup, ProfileMode mode,
@@ -235,25 +254,23 @@ SetupGeometry setup_geometry(const Photo& photo, const PhotoSetup& setup, Profil
     pose.to_camera = *known;
     result.pose = pose;
     result.geometry = std::make_shared<FullGeometry>(pose, setup.inclination);
+    place_face(noted_positions(setup), setup.shadow_side, result);
     return result;
   }
   if (!setup.markers && setup.scale.size() < 2)
     throw Error("straightedge: two or more scale_px_mm marks or markers must be given");
   const std::vector<PlanePoint> points = plane_points(photo, setup);
-  double across = 0;
-  double along = 0;
+  std::vector<Eigen::Vector2d> positions;
   for (const auto& point : points) {
-    across += point.position.y() / static_cast<double>(points.size());
-    along += point.position.x() / static_cast<double>(points.size());
+    positions.push_back(point.position);
     result.mark_px.push_back(point.pixel);
   }
   if (points.empty())
     for (const auto& mark : setup.scale) {
-      along += mark.x / static_cast<double>(setup.scale.size());
+      positions.emplace_back(mark.x, 0);
       result.mark_px.push_back(mark.pixel);
     }
-  result.middle = along;
-  if (std::abs(across) > 1e-3) result.side = across > 0 ? -1 : 1;
+  place_face(positions, setup.shadow_side, result);
   if (mode == ProfileMode::full) {
     full_geometry(photo, setup, points, result);
     require_edge_agreement(*result.geometry, setup);

@@ -57,6 +57,29 @@ double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& 
   return (point - from - t * way).norm();
 }
 
+/// The visible part of the casting edge on the photo, which a lens may bend.
+std::vector<Eigen::Vector2d> edge_on_photo(const PhotoGeometry& geometry, const EdgeSpan& span) {
+  constexpr int parts = 50;
+  std::vector<Eigen::Vector2d> line;
+  for (int i = 0; i <= parts; ++i)
+    line.push_back(geometry.pixel(span.from + (span.to - span.from) * i / parts, 0));
+  return line;
+}
+
+/// The outline of what was searched: along the edge, and back at the reach of the search.
+std::vector<Eigen::Vector2d> band_on_photo(const PhotoGeometry& geometry, const RoughTerminus& rough) {
+  std::vector<Eigen::Vector2d> outline;
+  const std::size_t stride = std::max<std::size_t>(1, rough.reach.size() / 50);
+  std::vector<Eigen::Vector2d> far;
+  for (std::size_t i = 0; i < rough.reach.size(); i += stride) {
+    const double x = rough.start + static_cast<double>(i) * rough.step;
+    outline.push_back(geometry.pixel(x, 0));
+    far.push_back(geometry.pixel(x, rough.side * rough.reach[i]));
+  }
+  outline.insert(outline.end(), far.rbegin(), far.rend());
+  return outline;
+}
+
 class Measurement {
  public:
   Measurement(const Photo& photo, const PhotoSetup& setup, ProfileMode mode,
@@ -69,8 +92,9 @@ class Measurement {
     const RoughTerminus rough =
         search_shadow(tone, photo_.width_px, photo_.height_px, *frame_.geometry, span, frame_.side);
     const double middle = (span.from + span.to) / 2;
-    const double pixel_size =
-        2e-5 / (frame_.geometry->pixel(middle + 1e-5, 0) - frame_.geometry->pixel(middle - 1e-5, 0)).norm();
+    const Eigen::Vector2d along =
+        frame_.geometry->pixel(middle + 1e-5, 0) - frame_.geometry->pixel(middle - 1e-5, 0);
+    const double pixel_size = 2e-5 / along.norm();
     const double spacing = std::max(setup_.grain_diameter.value_or(0), pixel_size);
     const Terminus terminus = without_jumps(locate_terminus(tone, *frame_.geometry, rough, spacing));
     std::vector<Eigen::Vector2d> pixels;
@@ -101,7 +125,10 @@ class Measurement {
     profile.grain_diameter = setup_.grain_diameter.value_or(0);
     profile.scale = {1 / pixel_size, frame_.scale_sigma / pixel_size};
     profile.mark_px = frame_.mark_px;
+    profile.edge_px = edge_on_photo(*frame_.geometry, span);
+    profile.band_px = band_on_photo(*frame_.geometry, rough);
     profile.remarks = frame_.remarks;
+    if (setup_.wind_px) profile.downwind = setup_.wind_px->dot(along) < 0 ? -1 : 1;
     std::vector<double> slope;
     for (std::size_t i = 0; i < raw.x.size(); ++i) {
       if (std::isnan(smooth.fit[i]) || std::isnan(scatter[i])) continue;

@@ -262,7 +262,7 @@ std::optional<float> light_further_in(const Grid& grid, int i, int end, float ha
 
 Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<Levels>& levels, int side) {
   Verdict verdict;
-  verdict.terminus = {side, grid.start, grid.step, grid.row, {}};
+  verdict.terminus = {side, grid.start, grid.step, grid.row, {}, {}};
   const int zone = std::max(6, static_cast<int>(3e-3 / grid.row));
   std::vector<float> darker;
   std::size_t beyond = 0;
@@ -282,6 +282,7 @@ Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<
         darker.push_back(*inner / *further);
     }
     verdict.terminus.y.push_back(y);
+    verdict.terminus.reach.push_back(grid.depth_of(i) * grid.row);
     for (int j = end + 2; j < std::min(end + 2 + zone, grid.depth_of(i)); ++j) {
       ++beyond;
       if (grid.at(i, j) > clipped) ++full;

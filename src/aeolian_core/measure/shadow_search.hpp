@@ -9,11 +9,12 @@ namespace aeolian {
 
 /// Where the shadow ends, roughly: y on the plane of the top face over x, both even steps.
 struct RoughTerminus {
-  int side = 1;           ///< the shadow lies at y > 0 (+1) or y < 0 (-1)
-  double start = 0;       ///< x of the first column [m]
-  double step = 0;        ///< of x [m]
-  double row = 0;         ///< of the search across: what y is good to [m]
-  std::vector<double> y;  ///< distance from the casting edge, positive [m]; NaN where there is none
+  int side = 1;               ///< the shadow lies at y > 0 (+1) or y < 0 (-1)
+  double start = 0;           ///< x of the first column [m]
+  double step = 0;            ///< of x [m]
+  double row = 0;             ///< of the search across: what y is good to [m]
+  std::vector<double> y;      ///< distance from the casting edge, positive [m]; NaN where there is none
+  std::vector<double> reach;  ///< distance from the casting edge to which a column was searched [m]
 };
 
 /// What part of the casting edge is on the photo.

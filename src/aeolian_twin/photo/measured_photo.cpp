@@ -2,28 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "aeolian_core/measure/profile_strip.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
 
 namespace aeolian {
-namespace {
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-}  // namespace
 
 std::vector<double> horizontal_places(const ShadowProfile& profile) {
-  const double sine = std::sin(profile.inclination);
-  const double cosine = std::cos(profile.inclination);
-  const double lift = mean(profile.x) * sine - profile.drop - mean(profile.z);
   std::vector<double> places;
-  for (std::size_t i = 0; i < profile.x.size(); ++i)
-    places.push_back((profile.x[i] - (profile.z[i] + lift) * sine) / cosine);
+  for (const Eigen::Vector3d& point : bed_points(profile)) places.push_back(point.x());
   return places;
 }
 

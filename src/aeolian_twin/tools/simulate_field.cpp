@@ -211,6 +211,7 @@ void clear_truth(const std::string& directory) {
 void simulate(const FieldDay& day, const std::string& directory) {
   make_directory(directory);
   clear_truth(directory + "/truth");
+  write_text_atomically(directory + "/shadow_setup.yaml", shadow_setup(day));
   write_atomically(directory + "/field_day.bag", [&](const std::string& temporary) {
     FieldBag bag(temporary, day.start);
     Simulation(day, directory, bag).run();
@@ -222,7 +223,7 @@ int run(int argc, char** argv) {
   CLI::App app(
       "A virtual field day: DIR/field_day.bag with /points, /wind, /image, /camera_info and /tf_static; the "
       "true elevation "
-      "of every minute and its ripples in DIR/truth.");
+      "of every minute and its ripples in DIR/truth; DIR/shadow_setup.yaml for measuring the photographs.");
   std::string config;
   std::string directory;
   std::uint64_t seed = 0;

@@ -203,6 +203,11 @@ TEST_F(PhotoSetupFile, AnglesThatCannotBe) {
   EXPECT_NO_THROW(read(scale + "light: {elevation_deg: 85}"));
   expect_refusal(scale + "light: {elevation_deg: 30, azimuth_deg: 90}",
                  ":2: light.azimuth_deg is '90', must be from -80 to 80");
+  expect_refusal("straightedge: {shadow_side: 0, scale_px_mm: [[1, 2, 3], [4, 5, 10]]}\n" + light,
+                 ":1: straightedge.shadow_side is '0', must be 1 (towards y > 0) or -1");
+  expect_refusal("straightedge: {shadow_side: 1, scale_px_mm: [[1, 2, 3, 4], [4, 5, 10, 4]]}\n" + light,
+                 ":1: straightedge.shadow_side is '1', must be away from the marks: the top face lies on the "
+                 "light's side");
   expect_refusal("straightedge: {inclination_deg: 60, scale_px_mm: [[1, 2, 3], [4, 5, 10]]}\n" + light,
                  ":1: straightedge.inclination_deg is '60', must be from -45 to 45");
   const auto sun = [](const std::string& utc, const std::string& place) {
