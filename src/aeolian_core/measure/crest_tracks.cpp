@@ -48,6 +48,7 @@ class CrestFollower {
       live.push_back(t);
     }
     std::vector<double> expected;
+    expected.reserve(live.size());
     for (const std::size_t t : live) expected.push_back(where_[t]);
     for (std::size_t c = 0; c < now.crests.size(); ++c) {
       const double at = now.crests[c];

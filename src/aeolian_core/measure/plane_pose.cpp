@@ -14,6 +14,7 @@ namespace aeolian {
 namespace {
 
 constexpr double pixel_sigma = 0.02;  // what marks reach at best [px]
+constexpr double found_px = 0.5;      // nor a found corner [px]
 constexpr double gross_px = 3;        // no careful mark is so far off [px]
 
 using Parameters = Eigen::Matrix<double, 7, 1>;
@@ -165,21 +166,28 @@ void require_spread(const std::vector<PlanePoint>& points) {
         "marks with x and y, or 'camera.plumb: true' for a camera that looks straight down");
 }
 
-void require_agreement(const Problem& problem, const std::vector<PlanePoint>& points,
-                       const CameraPose& pose) {
+/// The points that agree with a pose. Throws Error for one given by a person that does not.
+std::vector<PlanePoint> agreeing(const Problem& problem, const std::vector<PlanePoint>& points,
+                                 const CameraPose& pose) {
   std::vector<double> misses;
   for (std::size_t i = 0; i < points.size(); ++i) misses.push_back(problem.miss(pose, i));
   std::vector<double> sorted = misses;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
   const double typical = sorted[sorted.size() / 2];
-  const auto worst =
-      static_cast<std::size_t>(std::max_element(misses.begin(), misses.end()) - misses.begin());
-  if (typical > gross_px || misses[worst] > std::max(gross_px, 5 * typical))
-    throw Error(
-        fmt::format("scale marks disagree: the mark at pixel ({:.1f}, {:.1f}) is {:.1f} px from where "
-                    "the others put it",
-                    points[worst].pixel.x(), points[worst].pixel.y(), misses[worst]));
+  std::vector<PlanePoint> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double most = points[i].found ? std::max(found_px, 6 * typical) : std::max(gross_px, 5 * typical);
+    if (typical <= gross_px && misses[i] <= most) {
+      result.push_back(points[i]);
+    } else if (!points[i].found || typical > gross_px) {
+      throw Error(
+          fmt::format("scale marks disagree: the mark at pixel ({:.1f}, {:.1f}) is {:.1f} px from where the "
+                      "others put it",
+                      points[i].pixel.x(), points[i].pixel.y(), misses[i]));
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -216,7 +224,8 @@ CameraPose fit_pose(const std::vector<PlanePoint>& points, const CameraModel& ca
     throw Error(below ? "the marks are seen mirrored: x along the scale, y on the top face and z up must be "
                         "right-handed"
                       : "no camera can see the marks where they are said to be");
-  require_agreement(problem, points, best.pose);
+  const std::vector<PlanePoint> good = agreeing(problem, points, best.pose);
+  if (good.size() < points.size()) return fit_pose(good, camera, prior);
 
   CameraPose pose = best.pose;
   double squares = 0;

@@ -13,6 +13,7 @@ namespace aeolian {
 struct PlanePoint {
   Eigen::Vector2d position;  ///< x, y in the straightedge frame, z = 0 [m]
   Eigen::Vector2d pixel;
+  bool found = false;  ///< by the program, not given by a person: left out where it does not agree
 };
 
 /// A camera in its place.
@@ -36,7 +37,7 @@ struct FocalPrior {
 };
 
 /// The pose of a camera that sees points of a plane, by least squares; with a prior that is not exact, the
-/// focal length is fitted too. The covariance comes from the residuals, but from no less than 0.1 px. Throws
+/// focal length is fitted too. The covariance comes from the residuals, but from no less than 0.02 px. Throws
 /// Error when the points are fewer than four, lie on one line, are seen from below, or one is farther than
 /// 3 px (and five robust deviations) from where the others put it: "marks disagree".
 CameraPose fit_pose(const std::vector<PlanePoint>& points, const CameraModel& camera,

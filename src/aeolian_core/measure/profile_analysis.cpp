@@ -232,6 +232,7 @@ void Analyser::find_wind(ProfileAnalysis& result, const std::vector<RippleShape>
     downwind_ = *profile_.downwind < 0 ? -1 : 1;
   } else if (!shapes.empty()) {
     std::vector<double> skew;
+    skew.reserve(shapes.size());
     for (const RippleShape& shape : shapes) skew.push_back(shape.right_mean - shape.left_mean);
     downwind_ = median(skew) < 0 ? -1 : 1;
   }

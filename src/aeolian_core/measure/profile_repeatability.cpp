@@ -42,11 +42,11 @@ EvenProfile ripple_outline(const EvenProfile& profile, const ProfileRipple& ripp
   add(ripple.end, low + rise);
 
   EvenProfile outline;
-  const auto steps = std::max<double>(1, std::floor(along.back() / profile.step));
-  outline.step = along.back() / steps;
+  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(along.back() / profile.step));
+  outline.step = along.back() / static_cast<double>(steps);
   std::size_t k = 0;
-  for (double i = 0; i <= steps; ++i) {
-    const double at = i * outline.step;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double at = static_cast<double>(i) * outline.step;
     while (k + 2 < along.size() && along[k + 1] <= at) ++k;
     const double share = (at - along[k]) / (along[k + 1] - along[k]);
     outline.z.push_back(over[k] + share * (over[k + 1] - over[k]));

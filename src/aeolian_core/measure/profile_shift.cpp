@@ -33,9 +33,11 @@ Pair common_section(const EvenProfile& earlier, const EvenProfile& later) {
   const double to = std::min(end_of(earlier), end_of(later));
   Pair pair;
   pair.step = std::max(earlier.step, later.step);
-  for (double i = 0; from + i * pair.step <= to; ++i) {
-    pair.earlier.push_back(height_at(earlier, from + i * pair.step));
-    pair.later.push_back(height_at(later, from + i * pair.step));
+  double x = from;
+  while (x <= to) {
+    pair.earlier.push_back(height_at(earlier, x));
+    pair.later.push_back(height_at(later, x));
+    x = from + pair.step * static_cast<double>(pair.earlier.size());
   }
   constexpr std::size_t fewest = 8;
   if (pair.earlier.size() < fewest)
@@ -93,8 +95,8 @@ Match match_at(const Pair& pair, long lag) {
   return m;
 }
 
-/// Slope of the earlier profile by least squares over `half` samples to each side: between neighbours it would
-/// be that of the noise.
+/// Slope of the earlier profile by least squares over `half` samples to each side: between neighbours it
+/// would be that of the noise.
 double slope_at(const Pair& pair, long i, long half) {
   double moment = 0;
   for (long k = -half; k <= half; ++k)
@@ -114,6 +116,7 @@ double shift_error(const Pair& pair, double lag, std::size_t stretch) {
   double variance = 0;
   double stretch_sum = 0;
   std::size_t in_stretch = 0;
+  double stretches = 0;
   for (long i = m.first + half; i + half + 1 < m.end; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto moved = static_cast<std::size_t>(i + whole);
@@ -127,10 +130,14 @@ double shift_error(const Pair& pair, double lag, std::size_t stretch) {
       variance += stretch_sum * stretch_sum;
       stretch_sum = 0;
       in_stretch = 0;
+      ++stretches;
     }
   }
   variance += stretch_sum * stretch_sum;
-  return std::sqrt(variance) / slopes;
+  // Shift, gain and the line's two parameters have been fitted to the differences.
+  constexpr double fitted = 4;
+  const double lost = std::max(stretches, fitted + 1) / std::max(stretches - fitted, 1.0);
+  return std::sqrt(variance * lost) / slopes;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "aeolian_core/measure/local_quadratic.hpp"
 #include "aeolian_core/measure/photo_light.hpp"
 #include "aeolian_core/measure/profile_uncertainty.hpp"
+#include "aeolian_core/measure/second_border.hpp"
 #include "aeolian_core/measure/setup_geometry.hpp"
 #include "aeolian_core/measure/shadow_search.hpp"
 #include "aeolian_core/measure/shadow_terminus.hpp"
@@ -24,6 +25,7 @@ namespace {
 constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
+constexpr double most_doubled = 0.1;      // of the stations may have a second border
 constexpr double post_clearance = 4e-3;   // beside a post and its shadow [m]
 constexpr double sun_diameter = 0.0093;   // [rad]
 constexpr double usual_grain = 0.5e-3;    // where none is given [m]
@@ -120,6 +122,11 @@ class Measurement {
                                         std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
     finish(profile);
     require_sharp(profile, terminus);
+    const double gap = (2.5 * terminus.width_px + 1) * terminus.pixel_size;
+    if (share_with_second_border(tone, *frame_.geometry, profile.terminus_px, rough.side, gap,
+                                 terminus.pixel_size) > most_doubled)
+      throw Error(
+          "two shadows: a second border runs along that of the straightedge's shadow, as of two lights");
     return profile;
   }
 

@@ -153,44 +153,55 @@ std::vector<Level> surrounding_levels(const Strips& strips, const std::vector<do
   return result;
 }
 
-/// The border's blur: standard deviation of the light's rise about the places found, in rows, from the mean
-/// step of the strips laid over one another.
-double blur_of(const Strips& strips, const std::vector<double>& s, const std::vector<Level>& levels,
-               std::size_t begin, std::size_t end) {
-  const int bins = 4 * strips.rows;
-  std::vector<double> sum(static_cast<std::size_t>(bins), 0);
-  std::vector<int> count(static_cast<std::size_t>(bins), 0);
-  for (std::size_t k = begin; k < end; ++k)
-    for (int r = 0; r < strips.rows; ++r) {
-      const float value = strips.strip(k)[r];
-      if (std::isnan(value)) continue;
-      const double bin = 2 * (strips.offset(r) - s[k]) + bins / 2;
-      if (bin < 0 || bin >= bins) continue;
-      const double n = (static_cast<double>(value) - levels[k].dark) / (levels[k].lit - levels[k].dark);
-      sum[static_cast<std::size_t>(bin)] += n;
-      ++count[static_cast<std::size_t>(bin)];
-    }
-  // Least squares over the width, by golden section on its logarithm.
-  const auto misfit = [&](double log_width) {
-    const double width = std::exp(log_width);
-    double cost = 0;
-    for (int b = 0; b < bins; ++b)
-      if (const int n = count[static_cast<std::size_t>(b)]; n > 0) {
-        const double mean = sum[static_cast<std::size_t>(b)] / n;
-        cost += n * std::pow(mean - normal_distribution((b + 0.5 - bins / 2) / 2 / width), 2);
+/// The light of strips laid over one another at the places found, 0 dark and 1 lit, in bins of half a row.
+struct MeanStep {
+  std::vector<double> offset;  // from the border [rows]
+  std::vector<double> light;
+  std::vector<double> count;
+
+  MeanStep(const Strips& strips, const std::vector<double>& s, const std::vector<Level>& levels,
+           std::size_t begin, std::size_t end) {
+    const int bins = 4 * strips.rows;
+    std::vector<double> sums(static_cast<std::size_t>(bins), 0);
+    std::vector<double> counts(static_cast<std::size_t>(bins), 0);
+    for (std::size_t k = begin; k < end; ++k)
+      for (int r = 0; r < strips.rows; ++r) {
+        const float value = strips.strip(k)[r];
+        const double bin = 2 * (strips.offset(r) - s[k]) + bins / 2;
+        if (std::isnan(value) || bin < 0 || bin >= bins) continue;
+        sums[static_cast<std::size_t>(bin)] +=
+            (static_cast<double>(value) - levels[k].dark) / (levels[k].lit - levels[k].dark);
+        ++counts[static_cast<std::size_t>(bin)];
       }
-    return cost;
-  };
-  double low = std::log(0.3);
-  double high = std::log(static_cast<double>(strips.rows) / 2);
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 25; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
+    for (int b = 0; b < bins; ++b) {
+      const auto i = static_cast<std::size_t>(b);
+      if (counts[i] == 0) continue;
+      offset.push_back((b + 0.5 - bins / 2) / 2);
+      light.push_back(sums[i] / counts[i]);
+      count.push_back(counts[i]);
+    }
   }
-  return std::exp((low + high) / 2);
-}
+
+  /// Standard deviation of the rise in rows: least squares by golden section on its logarithm.
+  double width(int rows) const {
+    const auto misfit = [&](double log_width) {
+      const double w = std::exp(log_width);
+      double cost = 0;
+      for (std::size_t i = 0; i < offset.size(); ++i)
+        cost += count[i] * std::pow(light[i] - normal_distribution(offset[i] / w), 2);
+      return cost;
+    };
+    double low = std::log(0.3);
+    double high = std::log(static_cast<double>(rows) / 2);
+    constexpr double golden = 0.6180339887498949;
+    for (int i = 0; i < 25; ++i) {
+      const double a = high - golden * (high - low);
+      const double b = low + golden * (high - low);
+      (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
+    }
+    return std::exp((low + high) / 2);
+  }
+};
 
 /// The place of half light in one strip, in rows from its middle; nothing when the strip has no clear border.
 std::optional<double> fit_border(const Strips& strips, std::size_t k, const Level& level, double width,
@@ -287,7 +298,7 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
       for (std::size_t b = 0; b < blocks; ++b) {
         const std::size_t begin = b * strips.size() / blocks;
         const std::size_t end = (b + 1) * strips.size() / blocks;
-        const double w = blur_of(strips, s, levels, begin, end);
+        const double w = MeanStep(strips, s, levels, begin, end).width(strips.rows);
         std::fill(width.begin() + static_cast<std::ptrdiff_t>(begin),
                   width.begin() + static_cast<std::ptrdiff_t>(end), w);
         widest = std::max(widest, w);

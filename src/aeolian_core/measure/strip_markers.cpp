@@ -185,12 +185,17 @@ std::vector<PlanePoint> find_markers(const Photo& photo, const PhotoSetup::Marke
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i)
       corners[i] = {static_cast<double>(rough[i].x), static_cast<double>(rough[i].y)};
-    for (int round = 0; round < 2; ++round)
-      if (const auto better = refined(tone, corners, modules)) corners = *better;
+    bool clear = true;
+    for (int round = 0; round < 2 && clear; ++round) {
+      const auto better = refined(tone, corners, modules);
+      clear = better.has_value();
+      if (clear) corners = *better;
+    }
+    if (!clear) continue;  // something lies over a side
     const double half = markers.size / 2;
     const std::array<Eigen::Vector2d, 4> offsets{Eigen::Vector2d(-half, half), Eigen::Vector2d(half, half),
                                                  Eigen::Vector2d(half, -half), Eigen::Vector2d(-half, -half)};
-    for (std::size_t i = 0; i < 4; ++i) points.push_back({centre.position + offsets[i], corners[i]});
+    for (std::size_t i = 0; i < 4; ++i) points.push_back({centre.position + offsets[i], corners[i], true});
   }
   if (points.empty())
     throw Error(
