@@ -106,7 +106,7 @@ void add_light_faults(Collection* all) {
   for (int i = 0; i < 4; ++i) {
     all->add("overcast, no shadow", "shadow", [](ShadowScene* s) { s->skylight = 0.999; });
   }
-  for (const double azimuth : {-50.0, -40.0, 40.0, 50.0}) {
+  for (const double azimuth : {-75.0, -40.0, 40.0, 50.0}) {
     // Turned so far that neither shadow covers the other's border.
     all->add("two lights, two shadows", "two",
              [azimuth](ShadowScene* s) { s->second_light_azimuth = s->azimuth + azimuth * degree; });
