@@ -26,7 +26,6 @@ namespace {
 constexpr std::size_t fewest_stations = 20;
 constexpr double steepest_border = 3.5;   // of the terminus to the edge: slip faces in light of 15 degrees
 constexpr double steepest_bed = 0.9;      // tan 42 degrees
-constexpr double band_px = 20;            // drawn about the border
 constexpr double least_kept = 0.35;       // of the photo's width
 constexpr double most_shaded = 0.2;       // of the casting edge
 constexpr double most_doubled = 0.1;      // of the stations may have a second border
@@ -161,7 +160,7 @@ class Measurement {
     profile.relative_sigma = std::hypot(2 * shared.elevation / std::sin(2 * light_.elevation),
                                         std::tan(light_.azimuth) * shared.azimuth, frame_.scale_sigma);
     finish(profile);
-    outline(profile, rough, terminus.pixel_size);
+    profile.downwind = downwind();
     require_sharp(profile, terminus);
     const double gap = (2.5 * terminus.width_px + 1) * terminus.pixel_size;
     if (share_with_second_border(tone, *frame_.geometry, profile.terminus_px, rough.side, gap,
@@ -244,28 +243,15 @@ class Measurement {
           terminus.width_px, expected));
   }
 
-  /// What a picture of the measurement shows: the casting edge and the band about the border; and the wind.
-  void outline(ShadowProfile& profile, const RoughTerminus& rough, double pixel_size) const {
-    const PhotoGeometry& geometry = *frame_.geometry;
-    constexpr int points = 50;
-    for (int i = 0; i <= points; ++i)
-      profile.edge_px.push_back(
-          geometry.pixel(profile.x.front() + (profile.x.back() - profile.x.front()) * i / points, 0));
-    const double margin = band_px * pixel_size;
-    std::vector<Eigen::Vector2d> back;
-    for (std::size_t i = 0; i < rough.y.size(); ++i) {
-      if (std::isnan(rough.y[i])) continue;
-      const double x = rough.start + static_cast<double>(i) * rough.step;
-      profile.band_px.push_back(geometry.pixel(x, rough.side * (rough.y[i] + margin)));
-      back.push_back(geometry.pixel(x, rough.side * std::max(0.0, rough.y[i] - margin)));
-    }
-    profile.band_px.insert(profile.band_px.end(), back.rbegin(), back.rend());
-    if (setup_.wind_px) {
-      const Eigen::Vector2d middle((photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0);
-      const Eigen::Vector2d step = setup_.wind_px->normalized();
-      const Eigen::Vector2d way = geometry.top_face(middle + step) - geometry.top_face(middle - step);
-      if (std::abs(way.x()) > 0.2 * way.norm()) profile.downwind = way.x() > 0 ? 1 : -1;
-    }
+  /// +1 when the wind blows to larger x, -1 to smaller, nothing when it blows across or is not given.
+  std::optional<double> downwind() const {
+    if (!setup_.wind_px) return {};
+    const Eigen::Vector2d middle((photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0);
+    const Eigen::Vector2d step = setup_.wind_px->normalized();
+    const Eigen::Vector2d way =
+        frame_.geometry->top_face(middle + step) - frame_.geometry->top_face(middle - step);
+    if (std::abs(way.x()) < 0.2 * way.norm()) return {};
+    return way.x() > 0 ? 1 : -1;
   }
 
   /// Heights from where they are reported.
