@@ -70,7 +70,9 @@ std::vector<Eigen::Vector2d> band_on_photo(const PhotoGeometry& geometry, const 
   std::vector<Eigen::Vector2d> outline;
   const std::size_t stride = std::max<std::size_t>(1, rough.reach.size() / 50);
   std::vector<Eigen::Vector2d> far;
-  for (std::size_t i = 0; i < rough.reach.size(); i += stride) {
+  const std::size_t last = rough.reach.size() - 1;  // the search wants at least twenty columns
+  for (std::size_t k = 0; k < last + stride; k += stride) {
+    const std::size_t i = std::min(k, last);
     const double x = rough.start + static_cast<double>(i) * rough.step;
     outline.push_back(geometry.pixel(x, 0));
     far.push_back(geometry.pixel(x, rough.side * rough.reach[i]));

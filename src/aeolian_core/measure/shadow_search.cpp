@@ -77,15 +77,15 @@ Grid sample(const Tone& tone, int width, int height, const PhotoGeometry& geomet
   grid.columns = static_cast<int>((span.to - span.from) / grid.step);
   grid.start = span.from + grid.step / 2;
 
-  std::vector<double> reach;
+  std::vector<double> reaches;
   for (int i = 0; i < grid.columns; ++i)
-    reach.push_back(reach_at(geometry, width, height, grid.start + i * grid.step, side, 1 / px_across));
-  const double farthest = *std::max_element(reach.begin(), reach.end());
+    reaches.push_back(reach_at(geometry, width, height, grid.start + i * grid.step, side, 1 / px_across));
+  const double farthest = *std::max_element(reaches.begin(), reaches.end());
   grid.row = std::max(1 / px_across, farthest / most_rows);
   grid.rows = static_cast<int>(farthest / grid.row);
   grid.light.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);
   for (int i = 0; i < grid.columns; ++i)
-    grid.depth.push_back(static_cast<int>(reach[static_cast<std::size_t>(i)] / grid.row));
+    grid.depth.push_back(static_cast<int>(reaches[static_cast<std::size_t>(i)] / grid.row));
 
   const int along = std::clamp(static_cast<int>(grid.step * px_along / 2), 1, 4);
   const int across = std::clamp(static_cast<int>(grid.row * px_across + 0.5), 1, 3);
