@@ -105,6 +105,9 @@ StraightedgePlace straightedge_place(const Eigen::Isometry3d& straightedge_to_ma
 }
 
 std::vector<Eigen::Vector3d> bed_points(const ShadowProfile& profile) {
+  if (profile.y.size() != profile.x.size() || profile.z.size() != profile.x.size())
+    throw Error(fmt::format("profile: {} places along, {} across and {} heights, must be as many of each",
+                            profile.x.size(), profile.y.size(), profile.z.size()));
   const double sine = std::sin(profile.inclination);
   const double cosine = std::cos(profile.inclination);
   const double base = base_height(profile);

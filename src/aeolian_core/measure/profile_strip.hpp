@@ -21,7 +21,7 @@ struct StraightedgePlace {
 StraightedgePlace straightedge_place(const Eigen::Isometry3d& straightedge_to_map);
 
 /// The bed points of a profile in the level frame: z up, x horizontal along the straightedge, origin on the
-/// casting edge at scale zero [m].
+/// casting edge at scale zero [m]. Throws Error for x, y and z of different counts.
 std::vector<Eigen::Vector3d> bed_points(const ShadowProfile& profile);
 
 /// A profile as measured cells of a map: the smallest grid of cells of side `cell` [m] that holds the bed

@@ -55,6 +55,12 @@ TEST(BedPoints, LieWhereTheSectionWasMeasured) {
     }
 }
 
+TEST(BedPoints, NeedAllCoordinates) {
+  ShadowProfile profile = section(0);
+  profile.y.pop_back();
+  EXPECT_THROW(bed_points(profile), Error);
+}
+
 TEST(StraightedgePlace, IsTakenApartIntoInclinationLeanAndHeading) {
   const double inclination = 4 * degree;
   const double lean = -3 * degree;

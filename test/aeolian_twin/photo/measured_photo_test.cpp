@@ -54,6 +54,7 @@ TEST(MeasuredPhoto, PlacesAlongTheHorizontalOfAnInclinedStraightedge) {
   for (const double across : {0.0, 0.1, 0.2, 0.3}) {
     // The point (across, -0.05) of the level frame, in that of the edge.
     profile.x.push_back(across * std::cos(inclination) - 0.05 * std::sin(inclination));
+    profile.y.push_back(-0.03);
     profile.z.push_back(0);
     edge += profile.x.back() * std::sin(inclination) / 4;
   }
