@@ -10,7 +10,7 @@ namespace {
 /// The random set-ups of the bars, measured once for all tests of this file.
 class ShadowEnsemble : public testing::Test {
  protected:
-  static void SetUpTestSuite() { members_ = measure_ensemble(1, 200, 1, 2); }
+  static void SetUpTestSuite() { members_ = measure_ensemble(1, 200, 1.1, 2); }
   static void TearDownTestSuite() { members_.clear(); }
 
   static std::vector<EnsembleMember> members_;
