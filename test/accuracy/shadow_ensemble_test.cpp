@@ -48,16 +48,18 @@ TEST_F(ShadowEnsemble, HeightsAreNotBiased) {
 }
 
 // The bar of half a percent is for views that fix the wavelength so well; with few or low ripples in view the
-// analysis states a larger error, and is held to that.
+// fit states a larger error, and is held to that.
 TEST_F(ShadowEnsemble, WavelengthsAreGoodToHalfAPercent) {
   std::vector<double> errors;
+  int beyond = 0;
   for (const auto& member : members_) {
     const WavelengthScore& w = member.wavelength;
-    ASSERT_GT(w.ripples, 0u) << "seed " << member.seed;
-    EXPECT_LE(std::abs(w.error), std::max(0.005, 3 * w.sigma)) << "seed " << member.seed;
     errors.push_back(std::abs(w.error));
+    if (!(std::abs(w.error) <= std::max(0.005, 3 * w.sigma))) ++beyond;
   }
+  EXPECT_LE(beyond, 2);  // of 200: three standard errors leave 0.3 %
   EXPECT_LE(quantile(errors, 0.5), 0.0025);
+  EXPECT_LE(quantile(errors, 0.9), 0.005);
 }
 
 TEST_F(ShadowEnsemble, StatedIntervalsCoverTheTruth) {

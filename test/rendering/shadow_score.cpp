@@ -79,14 +79,10 @@ ShadowScore score(const SetUp& set_up, const ShadowProfile& profile) {
 WavelengthScore score_wavelength(const SetUp& set_up, const ProfileAnalysis& analysis) {
   WavelengthScore result;
   result.ripples = analysis.ripples.size();
-  if (analysis.ripples.empty()) {
-    result.error = result.sigma = std::numeric_limits<double>::quiet_NaN();
-    return result;
-  }
-  // The analysis measures along the line from trough to trough, the set-up along the straightedge.
+  // The analysis measures along the bed, the set-up along the straightedge.
   const double along_bed = set_up.wavelength / std::cos(true_dip(set_up) - set_up.scene.inclination);
-  result.error = analysis.wavelength.value / along_bed - 1;
-  result.sigma = analysis.wavelength.sigma / along_bed;
+  result.error = analysis.train_wavelength.value / along_bed - 1;
+  result.sigma = analysis.train_wavelength.sigma / along_bed;
   return result;
 }
 

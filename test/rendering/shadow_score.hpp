@@ -23,9 +23,9 @@ struct ShadowScore {
 
 ShadowScore score(const SetUp& set_up, const ShadowProfile& profile);
 
-/// Measured over true mean wavelength of the ripples in view.
+/// Wavelength of the train that fits best over the true one.
 struct WavelengthScore {
-  double error = 0;  ///< relative; NaN when no ripple is complete
+  double error = 0;  ///< relative
   double sigma = 0;  ///< as stated, relative
   std::size_t ripples = 0;
 };

@@ -20,6 +20,8 @@ constexpr double angle_sigma = 0.1 * degree;  // of given angles
 constexpr double sun_sigma = 0.02 * degree;   // of the sun's elevation: refraction near the horizon
 constexpr double north_sigma = 0.5 * degree;  // of a direction drawn on the photo
 constexpr double pixel_sigma = 0.3;           // of a post's pixels
+constexpr double section_reach = 8e-3;        // along the edge, for the bed's height at one place [m]
+constexpr std::size_t fewest_points = 6;
 constexpr double crest_turn = 2 * degree;  // of the crests against the normal of the edge, as the thesis asks
 constexpr double cross_slope = 0.005;      // of the bed along the crests
 
@@ -55,7 +57,7 @@ Light from_sun(const PhotoSetup::Sun& sun, const PhotoGeometry& geometry, const 
   return along({c * std::cos(travel), c * std::sin(travel), -std::sin(position.elevation)}, source.side);
 }
 
-/// Height of the bed at x [m] after the shadow's end, under a light: a line through the stations about it.
+/// Height of the bed at x [m] after the shadow's end, under a light.
 double bed_height(const PhotoGeometry& geometry, const Light& light,
                   const std::vector<Eigen::Vector2d>& terminus, double x) {
   std::size_t low = 0;
@@ -64,21 +66,28 @@ double bed_height(const PhotoGeometry& geometry, const Light& light,
     const std::size_t middle = (low + high) / 2;
     (geometry.bed_point(terminus[middle], light).x() > x ? high : low) = middle;
   }
-  constexpr std::size_t reach = 6;
-  const std::size_t begin = low < reach ? 0 : low - reach;
-  const std::size_t end = std::min(terminus.size(), low + reach + 1);
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  // A parabola through the stations within reach: the post hides those about its own shadow.
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
   Eigen::AlignedBox1d known;
-  for (std::size_t i = begin; i < end; ++i) {
+  std::size_t used = 0;
+  const auto add = [&](std::size_t i) {
     const Eigen::Vector3d point = geometry.bed_point(terminus[i], light);
-    const Eigen::Vector2d row(1, point.x() - x);
+    const double t = (point.x() - x) / section_reach;
+    if (std::isnan(t) || (std::abs(t) > 1 && used >= fewest_points)) return false;
+    const Eigen::Vector3d row(1, t, t * t);
     normal += row * row.transpose();
     right += row * point.z();
-    known.extend(Eigen::AlignedBox1d::VectorType(point.x()));
-  }
-  const Eigen::Vector2d line = normal.ldlt().solve(right);
-  return line[0] + line[1] * (std::clamp(x, known.min()[0], known.max()[0]) - x);
+    known.extend(Eigen::AlignedBox1d::VectorType(t));
+    ++used;
+    return true;
+  };
+  std::size_t down = low + 1;
+  while (down > 0 && add(down - 1)) --down;
+  for (std::size_t i = low + 1; i < terminus.size() && add(i); ++i) continue;
+  const Eigen::Vector3d parabola = normal.ldlt().solve(right);
+  const double t = std::clamp(0.0, known.min()[0], known.max()[0]);
+  return parabola.dot(Eigen::Vector3d(1, t, t * t));
 }
 
 Light from_post(const PhotoSetup::Post& post, const PhotoGeometry& geometry, const PhotoLight& source,

@@ -10,6 +10,7 @@
 #include "aeolian_core/measure/power_spectrum.hpp"
 #include "aeolian_core/measure/profile_noise.hpp"
 #include "aeolian_core/measure/profile_ripples.hpp"
+#include "aeolian_core/measure/wave_train.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
@@ -334,6 +335,12 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
   result.roughness = figure();
   result.dominant_length = {lengths[0], length_scatter[0].sigma()};
   result.spectral_wavelength = {lengths[1], length_scatter[1].sigma()};
+  const double mean_wavelength = result.wavelength.value;
+  const bool known = std::isfinite(mean_wavelength);
+  result.train_wavelength = train_wavelength(raw_, known ? 0.75 * mean_wavelength : 12 * raw_.step,
+                                             known ? mean_wavelength / 0.75 : 1e9);
+  result.train_wavelength.sigma =
+      std::hypot(result.train_wavelength.sigma, scale_error * result.train_wavelength.value);
 }
 
 ProfileAnalysis Analyser::run() {

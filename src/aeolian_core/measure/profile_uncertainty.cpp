@@ -12,6 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr double weighted_share = 0.776;  // variance that the robust weights leave of normal residuals
+constexpr double fall_off = 1.5;          // exponent of the distance in the likeness of neighbours
 constexpr int far = 8;                    // stations apart at which noise is no longer alike
 
 /// Autocorrelation of a filter, two-sided around lag 0.
@@ -48,11 +49,12 @@ double at(const std::vector<double>& values, int lag) {
 }
 
 /// Variance that a filter of the given autocorrelation leaves of noise whose neighbours are `likeness` alike,
-/// at a lag: the likeness falls off as a Gaussian, to its fourth power at twice the distance.
+/// at a lag. The likeness falls off faster than an exponential and slower than a Gaussian, as that of grains
+/// of one size seen in strips does.
 double filtered(const std::vector<double>& filter, double likeness, int lag) {
   double sum = at(filter, lag);
   for (int m = 1; m < far; ++m)
-    sum += std::pow(likeness, m * m) * (at(filter, lag - m) + at(filter, lag + m));
+    sum += std::pow(likeness, std::pow(m, fall_off)) * (at(filter, lag - m) + at(filter, lag + m));
   return sum;
 }
 

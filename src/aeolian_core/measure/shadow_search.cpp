@@ -16,6 +16,7 @@ constexpr int most_columns = 600;
 constexpr int most_rows = 1200;
 constexpr int edge_rows = 2;            // beside the bright bar, not looked at
 constexpr double least_contrast = 1.5;  // sunlit over shaded, linear light
+constexpr double clearly_darker = 1.5;  // of two shadows, in linear light
 constexpr double least_darker = 0.4;    // light inside the border over that further in
 constexpr float least_light = 0.02F;    // linear, of a lit bed that can be told from noise
 constexpr double reach = 6e-3;          // so far on either side of the border the light must be right [m]
@@ -262,7 +263,7 @@ std::optional<float> light_further_in(const Grid& grid, int i, int end, float ha
 
 Verdict judge(const Grid& grid, const std::vector<int>& path, const std::vector<Levels>& levels, int side) {
   Verdict verdict;
-  verdict.terminus = {side, grid.start, grid.step, grid.row, {}, {}};
+  verdict.terminus = {side, grid.start, grid.step, grid.row, {}, 0, {}};
   const int zone = std::max(6, static_cast<int>(3e-3 / grid.row));
   std::vector<float> darker;
   std::size_t beyond = 0;
@@ -321,7 +322,11 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
   if (verdict.found < std::max(20, grid.columns * 3 / 10))
     throw Error(fmt::format("no shadow with a clear border: it is found in {:.0f} % of the photo's width",
                             100.0 * verdict.found / grid.columns));
-  return verdict.terminus;
+  RoughTerminus terminus = verdict.terminus;
+  std::vector<float> shades;
+  for (const Levels& level : levels) shades.push_back(level.dark);
+  terminus.shade = static_cast<double>(quantile_of(shades, 0.5));
+  return terminus;
 }
 
 }  // namespace
@@ -347,22 +352,26 @@ EdgeSpan visible_edge(const PhotoGeometry& geometry, int width_px, int height_px
 RoughTerminus search_shadow(const Tone& tone, int width_px, int height_px, const PhotoGeometry& geometry,
                             const EdgeSpan& span, int side) {
   if (side != 0) return search_side(tone, width_px, height_px, geometry, span, side);
-  std::optional<RoughTerminus> found;
+  std::optional<RoughTerminus> darkest;
   std::string reason;
   for (const int either : {1, -1}) try {
       const RoughTerminus terminus = search_side(tone, width_px, height_px, geometry, span, either);
-      if (found)
+      // On the light's side a grey bar against bright sand may look like a shadow, but never as dark as one.
+      const double ratio = darkest ? terminus.shade / darkest->shade : 0;
+      if (darkest && ratio > 1 / clearly_darker && ratio < clearly_darker)
         throw Error(
-            "there is a shadow on either side of the straightedge: two lights, or give marks "
-            "with y so that its top face is known");
-      found = terminus;
+            "there is a shadow on either side of the straightedge: two lights, or give "
+            "straightedge.shadow_side or marks with y");
+      if (!darkest || ratio < 1) darkest = terminus;
     } catch (const Error& error) {
-      if (found && reason.empty() && std::string(error.what()).find("either side") != std::string::npos)
-        throw;
-      if (reason.empty()) reason = error.what();
+      if (darkest && darkest->side != either) {
+        if (std::string(error.what()).rfind("there is a shadow on either side", 0) == 0) throw;
+      } else {
+        reason = error.what();
+      }
     }
-  if (!found) throw Error(reason);
-  return *found;
+  if (!darkest) throw Error(reason);
+  return *darkest;
 }
 
 }  // namespace aeolian

@@ -14,6 +14,7 @@ struct RoughTerminus {
   double step = 0;            ///< of x [m]
   double row = 0;             ///< of the search across: what y is good to [m]
   std::vector<double> y;      ///< distance from the casting edge, positive [m]; NaN where there is none
+  double shade = 0;           ///< median light of the shadow, linear
   std::vector<double> reach;  ///< distance from the casting edge to which a column was searched [m]
 };
 

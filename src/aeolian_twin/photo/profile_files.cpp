@@ -129,6 +129,7 @@ void write_summary(const MeasuredPhoto& photo, const std::string& setup, const s
   put_figure(out, "roughness", "mm", photo.analysis.roughness, to_mm);
   put_figure(out, "dominant_length", "mm", photo.analysis.dominant_length, to_mm);
   put_figure(out, "spectral_wavelength", "mm", photo.analysis.spectral_wavelength, to_mm);
+  put_figure(out, "train_wavelength", "mm", photo.analysis.train_wavelength, to_mm);
   put_ripples(out, photo.analysis);
   put(out, "remarks", photo.profile.remarks);
   out << YAML::EndMap;
