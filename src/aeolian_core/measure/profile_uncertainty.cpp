@@ -12,7 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr double weighted_share = 0.776;  // variance that the robust weights leave of normal residuals
-constexpr double fall_off = 1.5;          // exponent of the distance in the likeness of neighbours
+constexpr double fall_off = 1.7;          // exponent of the distance in the likeness of neighbours
 constexpr int far = 8;                    // stations apart at which noise is no longer alike
 
 /// Autocorrelation of a filter, two-sided around lag 0.

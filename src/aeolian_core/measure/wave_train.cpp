@@ -12,7 +12,7 @@ namespace {
 
 constexpr int unknowns = 6;           // line, wave and overtone
 constexpr double fewest_waves = 1.2;  // in a profile
-constexpr double equally_good = 1.3;  // sums of squares
+constexpr double equally_good = 1.1;  // sums of squares
 
 struct TrainFit {
   double cost = 0;   // sum of squared residuals [m^2]
