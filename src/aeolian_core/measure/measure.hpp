@@ -2,9 +2,12 @@
 
 /// The room `measure`: from what instruments see to heights, and back.
 ///
-/// Point clouds are fused into a height map with its variance; a height map yields its ripple statistics. The
-/// forward models of the instruments (scanner, camera over a straightedge's shadow, anemometer) stand beside:
-/// a virtual field day is made with them. The shadow geometry follows Werner (1987), ch. V.
+/// Point clouds are fused into a height map with its variance; a height map yields its ripple statistics. A
+/// photograph of a straightedge's shadow yields a cross-section of the bed: `setup_geometry` (camera and
+/// scale) -> `shadow_search` (roughly) -> `shadow_terminus` (to a fraction of a pixel) -> `photo_light` ->
+/// `shadow_profile`, and `profile_analysis` its ripples. The forward models of the instruments (scanner,
+/// camera over a straightedge's shadow, anemometer) stand beside: a virtual field day is made with them. The
+/// shadow geometry follows Werner (1987), ch. V.
 ///
 /// The way of a point into the map: `point_locator` (place and noise: `sensor_noise`), `sample_buckets` (by
 /// tile), `fusion_tile` (does it agree with its cell? else `lower_surface`), `tile_filter` (two Kalman
@@ -12,7 +15,11 @@
 /// threads.
 
 #include "aeolian_core/measure/fusion.hpp"
+#include "aeolian_core/measure/photo.hpp"
+#include "aeolian_core/measure/photo_setup.hpp"
+#include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/measure/ripple_statistics.hpp"
+#include "aeolian_core/measure/shadow_profile.hpp"
 #include "aeolian_core/measure/virtual_anemometer.hpp"
 #include "aeolian_core/measure/virtual_camera.hpp"
 #include "aeolian_core/measure/virtual_scanner.hpp"

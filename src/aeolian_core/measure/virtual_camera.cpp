@@ -12,12 +12,17 @@
 namespace aeolian {
 namespace {
 
-// Tones, as shares of full scale.
+// Linear tones, as shares of full scale.
 constexpr double lit_sand = 0.55;   // level, in the open light
 constexpr double sky_share = 0.25;  // of the light: what is left in full shadow
 constexpr double straightedge = 0.93;
 constexpr double nothing = 0.05;  // beside the map
 constexpr double grain_contrast = 0.15;
+
+/// The curve by which cameras write light, 0 to 1 (IEC 61966-2-1).
+double srgb(double light) {
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
 
 double squared(double v) { return v * v; }
 
@@ -146,12 +151,12 @@ std::vector<std::uint8_t> VirtualCamera::photograph(const HeightMap& bed, const 
           pose.linear() * Eigen::Vector3d((column + 0.5 - 0.5 * width_px) / focal_px,
                                           (row + 0.5 - 0.5 * height_px) / focal_px, 1);
       const double covered = face.coverage(eye, ray, pixel_angle);
-      double tone = covered * straightedge;
-      if (covered < 1) tone += (1 - covered) * sand(ray);
+      double light_seen = covered * straightedge;
+      if (covered < 1) light_seen += (1 - covered) * sand(ray);
       // One draw serves two neighbours; its stream is not one of the grains'.
       const std::size_t pixel = picture.size();
       const auto pair = normals(random, pixel / 2, std::uint64_t{1} << 63);
-      tone += noise * pair[pixel % 2];
+      const double tone = srgb(light_seen) + noise * pair[pixel % 2];
       picture.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(tone, 0.0, 1.0))));
     }
   return picture;

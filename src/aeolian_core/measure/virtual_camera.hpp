@@ -25,7 +25,7 @@ struct VirtualCamera {
   double sun_diameter = 0.0093;  ///< angular, for the penumbra [rad]
   double noise = 0.01;           ///< standard deviation of a pixel, of full scale
 
-  /// An 8-bit grey photograph, row by row, of a bed under `light` (unit vector, the way the light travels,
+  /// An 8-bit grey photograph (sRGB curve), row by row, of a bed under `light` (unit vector, the way the light travels,
   /// downwards). The bed is grainy (albedo varies over `grain_diameter`), lit by its slope; the edge's shadow
   /// has its penumbra.
   std::vector<std::uint8_t> photograph(const HeightMap& bed, const Straightedge& edge,

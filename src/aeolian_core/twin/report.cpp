@@ -50,12 +50,12 @@ void draw_differences(const GridGeometry& geometry, const HeightMap::Layer& valu
 
 /// Measured map and forecast in one range of colours; their difference and the change to be forecast in
 /// another.
-std::vector<Figure> draw_maps(const Run& run, const Directory& directory) {
+std::vector<Picture> draw_maps(const Run& run, const Directory& directory) {
   const GridGeometry& grid = run.measured.geometry();
   const HeightMap::Layer& measured = run.measured.layer(layer::elevation);
   const ValueRange heights = display_range(measured, Palette::sand);
   draw_heights(grid, measured, heights, directory.file("measured.png"));
-  std::vector<Figure> figures{
+  std::vector<Picture> figures{
       {"measured.png", "Measured surface",
        "The map made of the sensor's scans. How to read it: pale is high, dark is low; ripples "
        "show as bands across the wind."}};

@@ -17,7 +17,7 @@ std::string card(const std::string& value, const std::string& meaning) {
          meaning + "</span></div>\n";
 }
 
-std::string figure(const Figure& picture, const std::string& look = "") {
+std::string figure(const Picture& picture, const std::string& look = "") {
   return "<figure" + (look.empty() ? "" : " class=\"" + look + "\"") + "><h3>" + escape_html(picture.title) +
          "</h3><img src=\"" + picture.file + "\" alt=\"" + escape_html(picture.title) + "\"><figcaption>" +
          escape_html(picture.caption) + "</figcaption></figure>\n";
@@ -199,7 +199,7 @@ std::string report_page(const PageContents& contents) {
   out << "<h2>The surface, measured and forecast</h2>\n<p>North is up. Light falls from the north-west. "
          "Hatched grey "
          "cells were not seen by the sensor.</p>\n<div class=\"maps\">\n";
-  for (const Figure& map : contents.maps) out << figure(map);
+  for (const Picture& map : contents.maps) out << figure(map);
   out << "</div>\n";
 
   out << "<h2>Growth of the ripples</h2>\n";

@@ -11,7 +11,7 @@
 namespace aeolian {
 
 /// A picture of the report with the words below it.
-struct Figure {
+struct Picture {
   std::string file;  ///< beside the page
   std::string title;
   std::string caption;
@@ -21,16 +21,16 @@ struct Figure {
 struct TruthStatistics {
   DifferenceStatistics measured;
   std::optional<DifferenceStatistics> forecast;
-  Figure picture;  ///< measured map minus truth
+  Picture picture;  ///< measured map minus truth
 };
 
 /// What the page shows, computed and drawn already.
 struct PageContents {
   const Run& run;
   std::vector<LeadSummary> leads;
-  std::vector<Figure> maps;
-  std::optional<Figure> growth;
-  std::optional<Figure> skill;
+  std::vector<Picture> maps;
+  std::optional<Picture> growth;
+  std::optional<Picture> skill;
   std::optional<TruthStatistics> truth;
   std::vector<std::string> tables;  ///< files beside the page
 };

@@ -5,11 +5,18 @@
 #include <vector>
 
 #include <aeolian_msgs/Comparison.h>
+#include <aeolian_msgs/Profile.h>
 #include <grid_map_msgs/GridMap.h>
+#include <opencv2/core.hpp>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 #include <visualization_msgs/Marker.h>
 
+#include "aeolian_core/measure/photo.hpp"
+#include "aeolian_core/measure/profile_analysis.hpp"
+#include "aeolian_core/measure/shadow_profile.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
 #include "aeolian_core/surface/shading.hpp"
@@ -50,6 +57,27 @@ WindField to_wind_field(const grid_map_msgs::GridMap& message);
 aeolian_msgs::Comparison to_message(const Comparison& comparison, const std_msgs::Header& header,
                                     const ros::Time& issued);
 Comparison to_comparison(const aeolian_msgs::Comparison& message);
+
+/// A photograph in grey. Encodings mono8, mono16, bgr8, rgb8, bgra8, rgba8 (alpha is ignored), either byte
+/// order, padded rows. Throws Error for another encoding, an image without pixels, and for data whose size
+/// does not fit.
+Photo to_photo(const sensor_msgs::Image& message);
+/// The same image as 8-bit BGR, to be drawn on.
+cv::Mat to_picture(const sensor_msgs::Image& message);
+/// An 8-bit BGR picture.
+sensor_msgs::Image to_message(const cv::Mat& picture, const std_msgs::Header& header);
+
+/// The camera of unrectified images (K and D). Throws Error for one that is not calibrated, has a skew,
+/// another model than plumb_bob or rational_polynomial, binning or a region of interest.
+CameraModel to_camera_model(const sensor_msgs::CameraInfo& message);
+
+/// `points`: the bed points in the header's frame, or none when the straightedge's pose is not known.
+aeolian_msgs::Profile to_message(const ShadowProfile& profile, const ProfileAnalysis& analysis,
+                                 const std::vector<Eigen::Vector3d>& points, const std_msgs::Header& header);
+/// A point (x, y, z, sigma_z as floats) for each station: z's standard error is a field of its own. Few and
+/// near the frame's origin, so that floats hold them.
+sensor_msgs::PointCloud2 to_cloud(const std::vector<Eigen::Vector3d>& points,
+                                  const std::vector<double>& sigma_z, const std_msgs::Header& header);
 
 /// Where and how a map is drawn.
 struct Drawing {

@@ -27,6 +27,7 @@ struct NodeDescription {
 
 /// Each node's description stands in its own file, beside its class.
 NodeDescription describe_height_mapper();
+NodeDescription describe_shadow_profiler();
 NodeDescription describe_wind_estimator();
 NodeDescription describe_forecaster();
 NodeDescription describe_comparator();

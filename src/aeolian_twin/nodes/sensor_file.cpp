@@ -1,6 +1,6 @@
 #include "aeolian_twin/nodes/sensor_file.hpp"
 
-#include "aeolian_twin/tools/yaml_section.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 

@@ -30,7 +30,7 @@ class FieldBag {
   }
   void close() { bag_.close(); }
 
-  /// The sensors' places in `map`.
+  /// The places of sensors and straightedge in `map`.
   void write_frames(const FieldDay& day) {
     tf2_msgs::TFMessage frames;
     const auto add = [&](const std::string& name, const Eigen::Isometry3d& pose) {
@@ -43,6 +43,7 @@ class FieldBag {
     for (std::size_t i = 0; i < day.scanners.size(); ++i) add(scanner_frame(i), day.scanners[i].pose);
     add("camera", day.camera.pose);
     add("anemometer", day.anemometer_pose);
+    add("straightedge", straightedge_pose(day.straightedge));
     write_static_frames(bag_, frames, stamp(0), "simulate_field");
   }
 

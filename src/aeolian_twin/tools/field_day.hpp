@@ -6,8 +6,8 @@
 
 #include "aeolian_core/bedforms/bedforms.hpp"
 #include "aeolian_core/measure/measure.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 #include "aeolian_core/wind/wind.hpp"
-#include "aeolian_twin/tools/yaml_section.hpp"
 
 namespace aeolian {
 
@@ -47,6 +47,16 @@ inline Eigen::Isometry3d look_at(const Eigen::Vector3d& position, const Eigen::V
   pose.linear().col(0) = right;
   pose.linear().col(1) = forward.cross(right);
   pose.linear().col(2) = forward;
+  return pose;
+}
+
+/// The frame of a straightedge that is level across: origin at the casting edge's start, x along it, z up.
+inline Eigen::Isometry3d straightedge_pose(const Straightedge& edge) {
+  const Eigen::Vector3d along = (edge.end - edge.start).normalized();
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(along).normalized();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = edge.start;
+  pose.linear() << along, across, along.cross(across);
   return pose;
 }
 
@@ -121,6 +131,8 @@ inline void read_camera(YamlSection section, FieldDay& day) {
 inline void read_shadow(YamlSection section, FieldDay& day) {
   day.straightedge.start = section.point("edge_start_m");
   day.straightedge.end = section.point("edge_end_m");
+  if (!((day.straightedge.end - day.straightedge.start).head<2>().norm() > 1e-6))
+    section.refuse("edge_end_m", "must lie apart from edge_start_m, seen from above");
   day.straightedge.width = section.positive("edge_width_m", 10);
   day.camera.sun_diameter = degrees_to_radians(section.positive("sun_diameter_deg", 90));
   const double elevation = read_angle(section, "sun_elevation_deg", 1, 90);
@@ -128,6 +140,25 @@ inline void read_shadow(YamlSection section, FieldDay& day) {
   day.light = {std::cos(elevation) * std::cos(towards), std::cos(elevation) * std::sin(towards),
                -std::sin(elevation)};
   section.finish();
+}
+
+/// The setup file of the day's photographs (docs/measure_photo.md), for poses from tf: without marks.
+inline std::string shadow_setup(const FieldDay& day) {
+  const Eigen::Isometry3d edge = straightedge_pose(day.straightedge);
+  const Eigen::Vector3d along = Eigen::Vector3d(edge(0, 0), edge(1, 0), 0).normalized();
+  const double across = day.light.dot(Eigen::Vector3d::UnitZ().cross(along));
+  const Eigen::Vector3d wind(std::cos(day.anemometer.direction), std::sin(day.anemometer.direction), 0);
+  const Eigen::Vector3d on_photo = day.camera.pose.linear().transpose() * wind;
+  return fmt::format(
+      "# The light over the straightedge of a virtual field day; the camera's place is in tf.\n"
+      "light: {{elevation_deg: {:.6g}, azimuth_deg: {:.6g}}}\n"
+      "straightedge: {{inclination_deg: {:.6g}, shadow_side: {}}}\n"
+      "grain_diameter_mm: {:.6g}\n"
+      "wind_px: [{:.6f}, {:.6f}]\n",
+      radians_to_degrees(std::asin(-day.light.z())),
+      radians_to_degrees(std::atan2(day.light.dot(along), std::abs(across))),
+      radians_to_degrees(std::asin(edge(2, 0))), across > 0 ? 1 : -1, 1e3 * day.grain.diameter, on_photo.x(),
+      on_photo.y());
 }
 
 /// Reads the file; throws Error that names what is wrong with it.

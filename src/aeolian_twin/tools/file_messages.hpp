@@ -12,13 +12,13 @@
 #include <sensor_msgs/Image.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_twin/tools/yaml_section.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 
 /// A photo in any format that OpenCV reads, upright as its EXIF data say; grey or colour, 8 or 16 bits.
 /// Throws Error naming the file.
-inline sensor_msgs::Image read_photo(const std::string& path) {
+inline sensor_msgs::Image read_image(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw Error("photo '" + path + "': there is no such file");
   cv::Mat photo;
   try {

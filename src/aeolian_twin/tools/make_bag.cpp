@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <geometry_msgs/TwistStamped.h>
-#include <opencv2/core/utils/logger.hpp>
 #include <rosbag/bag.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
@@ -21,6 +20,7 @@
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/tools/file_messages.hpp"
 #include "aeolian_twin/tools/manifest.hpp"
+#include "aeolian_twin/tools/program.hpp"
 #include "aeolian_twin/tools/static_frames.hpp"
 
 namespace aeolian {
@@ -134,7 +134,7 @@ class BagMaker {
   }
 
   void write_photo(const Manifest::Photo& photo) {
-    sensor_msgs::Image image = read_photo(photo.file);
+    sensor_msgs::Image image = read_image(photo.file);
     sensor_msgs::CameraInfo info = read_camera_info(photo.camera_info);
     if (image.width != info.width || image.height != info.height)
       throw Error(fmt::format("photo '{}': has {} x {} pixels, its camera_info '{}' is for {} x {}",
@@ -230,11 +230,7 @@ int run(int argc, char** argv) {
   std::string bag;
   app.add_option("MANIFEST", manifest, "YAML file that lists the files")->required();
   app.add_option("BAG", bag, "bag to write")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
+  if (const auto code = parse(app, argc, argv)) return *code;
   fmt::print("{}: {}\n", bag, make_bag(manifest, bag));
   return 0;
 }
@@ -243,11 +239,5 @@ int run(int argc, char** argv) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  try {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    return aeolian::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_bag: %s\n", error.what());
-    return 1;
-  }
+  return aeolian::run_program("make_bag", [&] { return aeolian::run(argc, argv); });
 }

@@ -13,7 +13,7 @@
 #include <ros/time.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_twin/tools/yaml_section.hpp"
+#include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 

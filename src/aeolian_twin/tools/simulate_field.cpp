@@ -17,6 +17,7 @@
 #include "aeolian_core/surface/surface.hpp"
 #include "aeolian_twin/tools/field_bag.hpp"
 #include "aeolian_twin/tools/field_day.hpp"
+#include "aeolian_twin/tools/program.hpp"
 
 namespace aeolian {
 namespace {
@@ -210,6 +211,7 @@ void clear_truth(const std::string& directory) {
 void simulate(const FieldDay& day, const std::string& directory) {
   make_directory(directory);
   clear_truth(directory + "/truth");
+  write_text_atomically(directory + "/shadow_setup.yaml", shadow_setup(day));
   write_atomically(directory + "/field_day.bag", [&](const std::string& temporary) {
     FieldBag bag(temporary, day.start);
     Simulation(day, directory, bag).run();
@@ -221,7 +223,7 @@ int run(int argc, char** argv) {
   CLI::App app(
       "A virtual field day: DIR/field_day.bag with /points, /wind, /image, /camera_info and /tf_static; the "
       "true elevation "
-      "of every minute and its ripples in DIR/truth.");
+      "of every minute and its ripples in DIR/truth; DIR/shadow_setup.yaml for measuring the photographs.");
   std::string config;
   std::string directory;
   std::uint64_t seed = 0;
@@ -231,11 +233,7 @@ int run(int argc, char** argv) {
   const auto* seed_option = app.add_option("--seed", seed, "decides everything random; overrides the file's");
   const auto* minutes_option = app.add_option("--minutes", minutes, "length of the day; overrides the file's")
                                    ->check(CLI::Range(0.001, 1e4));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 1;
-  }
+  if (const auto code = parse(app, argc, argv)) return *code;
   FieldDay day = read_field_day(config);
   if (seed_option->count() > 0) day.seed = seed;
   if (minutes_option->count() > 0) day.duration = 60 * minutes;
@@ -247,10 +245,5 @@ int run(int argc, char** argv) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  try {
-    return aeolian::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "simulate_field: %s\n", e.what());
-    return 1;
-  }
+  return aeolian::run_program("simulate_field", [&] { return aeolian::run(argc, argv); });
 }

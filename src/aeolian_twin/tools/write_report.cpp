@@ -21,6 +21,7 @@
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/twin/report.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/tools/program.hpp"
 
 namespace aeolian {
 namespace {
@@ -252,11 +253,7 @@ int run(int argc, char** argv) {
       ->required();
   app.add_option("--out", directory, "directory for index.html, created when it does not exist")->required();
   app.add_option("--truth", truth, "directory that simulate_field wrote: compares with the true surface too");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
+  if (const auto code = parse(app, argc, argv)) return *code;
   write_report(RunReader(bag, truth).read(), directory);
   std::printf("%s\n", (std::filesystem::path(directory) / "index.html").c_str());
   return 0;
@@ -266,10 +263,5 @@ int run(int argc, char** argv) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  try {
-    return aeolian::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "write_report: %s\n", error.what());
-    return 1;
-  }
+  return aeolian::run_program("write_report", [&] { return aeolian::run(argc, argv); });
 }

@@ -28,14 +28,16 @@ struct Rig {
   }
   /// Row at which a point of the map appears [px, from the upper rim of the picture].
   double row(double y, double z) const { return 0.5 * camera.height_px - camera.focal_px * y / (0.7 - z); }
-  /// Mean of each row's middle part.
+  /// Mean light of each row's middle part, of 255: the sRGB curve (IEC 61966-2-1) undone.
   std::vector<double> rows(std::uint64_t seed = 1) const {
     const auto picture = camera.photograph(bed, edge, light, 0.0004, seed);
     std::vector<double> mean;
     for (int r = 0; r < camera.height_px; ++r) {
       double sum = 0;
       for (int c = 20; c < camera.width_px - 20; ++c)
-        sum += picture[static_cast<std::size_t>(r * camera.width_px + c)];
+        sum += 255 *
+               std::pow((picture[static_cast<std::size_t>(r * camera.width_px + c)] / 255.0 + 0.055) / 1.055,
+                        2.4);
       mean.push_back(sum / (camera.width_px - 40));
     }
     return mean;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -66,6 +67,15 @@ class YamlSection {
             checked(key, node[2], -far, far)};
   }
 
+  bool flag(const std::string& key) {
+    const YAML::Node node = take(key);
+    try {
+      return node.as<bool>();
+    } catch (const YAML::Exception&) {
+      fail(key, node, "must be true or false");
+    }
+  }
+
   /// For keys that may be absent.
   bool has(const std::string& key) const {
     const YAML::Node node = node_[key];
@@ -81,6 +91,35 @@ class YamlSection {
     std::vector<double> result;
     for (const YAML::Node& element : node) result.push_back(checked(key, element, -1e12, 1e12));
     return result;
+  }
+
+  /// A list of lists, each of `fewest` to `most` numbers within the limits; at least one.
+  std::vector<std::vector<double>> rows(const std::string& key, std::size_t fewest, std::size_t most,
+                                        double low = -1e12, double high = 1e12) {
+    const YAML::Node node = take(key);
+    if (!node.IsSequence() || node.size() == 0) fail(key, node, "must be a list of at least one");
+    std::vector<std::vector<double>> result;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string name = fmt::format("{}[{}]", key, i);
+      if (!node[i].IsSequence() || node[i].size() < fewest || node[i].size() > most)
+        fail(name, node[i],
+             fewest == most ? fmt::format("must be a list of {} numbers", fewest)
+                            : fmt::format("must be a list of {} to {} numbers", fewest, most));
+      std::vector<double>& row = result.emplace_back();
+      for (const YAML::Node& element : node[i]) row.push_back(checked(name, element, low, high));
+    }
+    return result;
+  }
+
+  bool is_list(const std::string& key) const { return has(key) && node_[key].IsSequence(); }
+  bool is_text(const std::string& key) const { return has(key) && node_[key].IsScalar(); }
+
+  /// Lets a key be there that is of no use here.
+  void ignore(const std::string& key) { taken_.insert(key); }
+
+  /// Throws Error about an element of the list under a key.
+  [[noreturn]] void refuse_element(const std::string& key, std::size_t index, const std::string& rule) const {
+    fail(fmt::format("{}[{}]", key, index), node_[key][index], rule);
   }
 
   /// Throws Error about the value of a key that is there.
@@ -109,11 +148,11 @@ class YamlSection {
   }
 
  private:
-  YamlSection(YAML::Node node, std::string path, std::string name)
-      : node_(std::move(node)), path_(std::move(path)), name_(std::move(name)) {
+  YamlSection(const YAML::Node& node, std::string path, std::string name)
+      : node_(node), path_(std::move(path)), name_(std::move(name)) {
     if (!node_.IsMap())
       throw Error(fmt::format("{}:{}: {} must be a section of 'key: value' lines", path_,
-                              node_.Mark().line + 1, name_.empty() ? "the file" : name_));
+                              std::max(node_.Mark().line, 0) + 1, name_.empty() ? "the file" : name_));
   }
 
   std::string full(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
@@ -138,9 +177,18 @@ class YamlSection {
   }
 
   [[noreturn]] void fail(const std::string& key, const YAML::Node& node, const std::string& rule) const {
-    const std::string value =
-        node.IsScalar() ? fmt::format("is '{}'", node.Scalar()) : "is not a single value";
-    throw Error(fmt::format("{}:{}: {} {}, {}", path_, node.Mark().line + 1, full(key), value, rule));
+    throw Error(
+        fmt::format("{}:{}: {} is {}, {}", path_, node.Mark().line + 1, full(key), shown(node), rule));
+  }
+
+  /// A value as an error tells it: in one line, and not too long.
+  static std::string shown(const YAML::Node& node) {
+    if (node.IsScalar()) return fmt::format("'{}'", node.Scalar());
+    YAML::Emitter text;
+    text << YAML::Flow << node;
+    constexpr std::size_t longest = 60;
+    const std::string list = text.c_str();
+    return list.size() > longest || list.find('\n') != std::string::npos ? "not a single value" : list;
   }
 
   YAML::Node node_;
