@@ -38,7 +38,7 @@ std::string row(const std::string& name, const Members& members) {
   for (const EnsembleMember* m : members) {
     rmse.push_back(1e3 * m->score.rmse);
     share.push_back(m->score.rmse / m->score.bar);
-    wavelength.push_back(100 * std::abs(m->wavelength.error));
+    if (!std::isnan(m->wavelength.error)) wavelength.push_back(100 * std::abs(m->wavelength.error));
     milliseconds.push_back(1e3 * m->seconds);
     covered += static_cast<double>(m->score.covered);
     stations += static_cast<double>(m->score.stations);

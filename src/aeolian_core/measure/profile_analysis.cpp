@@ -335,10 +335,8 @@ void Analyser::add_uncertainty(ProfileAnalysis& result) {
   result.roughness = figure();
   result.dominant_length = {lengths[0], length_scatter[0].sigma()};
   result.spectral_wavelength = {lengths[1], length_scatter[1].sigma()};
-  const double mean_wavelength = result.wavelength.value;
-  const bool known = std::isfinite(mean_wavelength);
-  result.train_wavelength = train_wavelength(raw_, known ? 0.75 * mean_wavelength : 12 * raw_.step,
-                                             known ? mean_wavelength / 0.75 : 1e9);
+  const double mean_wavelength = result.wavelength.value;  // NaN without a whole ripple: then no train either
+  result.train_wavelength = train_wavelength(raw_, 0.75 * mean_wavelength, mean_wavelength / 0.75);
   result.train_wavelength.sigma =
       std::hypot(result.train_wavelength.sigma, scale_error * result.train_wavelength.value);
 }

@@ -64,7 +64,8 @@ struct ProfileAnalysis {
   std::vector<double> wavenumber;  ///< cycles [1/m]
   std::vector<double> power;       ///< one-sided density [m^3]; its integral is the variance
   Figure spectral_wavelength;      ///< at the highest peak [m]
-  Figure train_wavelength;  ///< of the regular train that fits best, along the bed [m]; see wave_train.hpp
+  Figure train_wavelength;  ///< of the regular train that fits best, along the bed [m]; NaN without a whole
+                            ///< ripple; see wave_train.hpp
 };
 
 /// Analyses a profile as the thesis does (sections 2.3 and 2.4 of Werner 1987, ch. V), in this order:
