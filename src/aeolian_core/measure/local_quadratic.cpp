@@ -1,4 +1,5 @@
 #include "aeolian_core/measure/local_quadratic.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,9 +72,7 @@ LocalQuadratic local_quadratic(const std::vector<double>& x, const std::vector<d
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isnan(result.fit[i]) && !std::isnan(y[i])) misses.push_back(std::abs(y[i] - result.fit[i]));
     if (misses.empty()) break;
-    const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-    std::nth_element(misses.begin(), middle, misses.end());
-    const double limit = 6 * *middle;
+    const double limit = 6 * median(misses);
     for (std::size_t i = 0; i < n; ++i) {
       const double t =
           std::isnan(result.fit[i]) || std::isnan(y[i]) || limit == 0 ? 0 : (y[i] - result.fit[i]) / limit;

@@ -7,6 +7,7 @@ namespace aeolian {
 namespace {
 
 constexpr double least_angle_sine = 0.2;  // of a ray to the plane of light (Werner spec: reject |n.r| < 0.2)
+constexpr double tiny = 1e-5;             // over which the photo is straight [m]
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -17,6 +18,14 @@ Eigen::Vector3d Light::direction() const {
 }
 
 Eigen::Vector3d PhotoGeometry::edge() const { return {std::cos(inclination_), 0, std::sin(inclination_)}; }
+
+double PhotoGeometry::pixels_along(double x) const {
+  return (pixel(x + tiny, 0) - pixel(x - tiny, 0)).norm() / (2 * tiny);
+}
+
+double PhotoGeometry::pixels_across(double x) const {
+  return (pixel(x, tiny) - pixel(x, -tiny)).norm() / (2 * tiny);
+}
 
 FullGeometry::FullGeometry(CameraPose pose, double inclination)
     : PhotoGeometry(inclination), pose_(std::move(pose)) {

@@ -32,6 +32,9 @@ class PhotoGeometry {
   Eigen::Vector3d edge() const;
   /// Where a point of the plane of the top face is seen [px]; NaN where it is not.
   virtual Eigen::Vector2d pixel(double x, double y) const = 0;
+  /// Pixels per metre of that plane about a place of the casting edge, along and across the edge.
+  double pixels_along(double x) const;
+  double pixels_across(double x) const;
   /// The point of the plane of the top face that a pixel shows: x, y [m].
   virtual Eigen::Vector2d top_face(const Eigen::Vector2d& pixel) const = 0;
   /// The point of the level frame at height z that a pixel shows [m].
@@ -55,8 +58,6 @@ class FullGeometry : public PhotoGeometry {
   Eigen::Vector2d top_face(const Eigen::Vector2d& pixel) const override;
   Eigen::Vector3d at_level(const Eigen::Vector2d& pixel, double z) const override;
   Eigen::Vector3d bed_point(const Eigen::Vector2d& pixel, const Light& light) const override;
-
-  const CameraPose& pose() const { return pose_; }
 
  private:
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;

@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -171,10 +172,7 @@ std::vector<PlanePoint> agreeing(const Problem& problem, const std::vector<Plane
                                  const CameraPose& pose) {
   std::vector<double> misses;
   for (std::size_t i = 0; i < points.size(); ++i) misses.push_back(problem.miss(pose, i));
-  std::vector<double> sorted = misses;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const double typical = sorted[sorted.size() / 2];
+  const double typical = median(misses);
   std::vector<PlanePoint> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double most = points[i].found ? std::max(found_px, 6 * typical) : std::max(gross_px, 5 * typical);

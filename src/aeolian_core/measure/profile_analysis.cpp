@@ -12,6 +12,7 @@
 #include "aeolian_core/measure/profile_ripples.hpp"
 #include "aeolian_core/measure/wave_train.hpp"
 #include "aeolian_core/surface/random.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -53,12 +54,6 @@ RippleValues values_of(const RippleShape& shape, double downwind) {
 double rms(const std::vector<double>& values) {
   const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The mean over up to `reach` samples to both sides.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "aeolian_core/surface/random.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 
@@ -12,9 +13,7 @@ double neighbour_noise(const std::vector<double>& z) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < z.size(); ++i) bends.push_back(std::abs(z[i] - 2 * z[i - 1] + z[i - 2]));
   if (bends.empty()) return 0;
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  return 1.4826 * *middle / std::sqrt(6.0);
+  return 1.4826 * median(bends) / std::sqrt(6.0);
 }
 
 ProfileNoise::ProfileNoise(std::vector<double> sigma, std::size_t correlated)

@@ -4,6 +4,7 @@
 
 #include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -62,9 +63,7 @@ void make_horizontal(Stations& stations, const ShadowProfile& profile) {
 double median_spacing(const std::vector<double>& x) {
   std::vector<double> spacing;
   for (std::size_t i = 1; i < x.size(); ++i) spacing.push_back(x[i] - x[i - 1]);
-  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-  std::nth_element(spacing.begin(), middle, spacing.end());
-  return *middle;
+  return median(spacing);
 }
 
 /// Without stations that hardly advance (noise on an inclined edge): cubics through them would swing.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -28,10 +29,7 @@ std::vector<Stretch> stretches(const std::vector<Eigen::Vector3d>& points, doubl
   std::vector<double> steps;
   for (std::size_t i = 1; i < points.size(); ++i)
     steps.push_back((points[i] - points[i - 1]).head<2>().norm());
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double widest = std::max(3 * *middle, cell);
+  const double widest = std::max(3 * median(steps), cell);
   std::vector<Stretch> result{{0, 1}};
   for (std::size_t i = 1; i < points.size(); ++i)
     if (steps[i - 1] > widest)

@@ -7,6 +7,7 @@
 
 #include "aeolian_core/measure/directional_lines.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -74,13 +75,6 @@ double spectral_share(const DirectionalLines& lines, double wavelength) {
     }
   }
   return std::min(1.0, peak / total);
-}
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return none;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Slopes along the lines, each the least-squares line through a tenth of a wavelength (at least three

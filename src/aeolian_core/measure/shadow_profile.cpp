@@ -19,6 +19,7 @@
 #include "aeolian_core/measure/shadow_search.hpp"
 #include "aeolian_core/measure/shadow_terminus.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -39,13 +40,6 @@ constexpr double smoothing_stations = 5;  // half width of the regression along 
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& from,

@@ -70,10 +70,8 @@ Grid sample(const Tone& tone, int width, int height, const PhotoGeometry& geomet
             int side) {
   Grid grid;
   const double middle = (span.from + span.to) / 2;
-  const double tiny = (span.to - span.from) * 1e-4;
-  const double px_along =
-      (geometry.pixel(middle + tiny, 0) - geometry.pixel(middle - tiny, 0)).norm() / (2 * tiny);
-  const double px_across = (geometry.pixel(middle, tiny) - geometry.pixel(middle, -tiny)).norm() / (2 * tiny);
+  const double px_along = geometry.pixels_along(middle);
+  const double px_across = geometry.pixels_across(middle);
   grid.step = std::max(2 / px_along, (span.to - span.from) / most_columns);
   grid.columns = static_cast<int>((span.to - span.from) / grid.step);
   grid.start = span.from + grid.step / 2;
@@ -153,7 +151,6 @@ std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) 
   const auto size = static_cast<std::size_t>(rows);
   const int window = std::max(12, static_cast<int>(reach / grid.row));
   std::vector<float> cost(size, 0);
-  std::vector<float> wrong(size);
   std::vector<float> sums(size + 1);
   std::vector<std::uint16_t> from(size * static_cast<std::size_t>(grid.columns));
   for (int i = 0; i < grid.columns; ++i) {

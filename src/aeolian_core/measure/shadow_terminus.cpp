@@ -1,4 +1,6 @@
 #include "aeolian_core/measure/shadow_terminus.hpp"
+#include "aeolian_core/surface/median.hpp"
+#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +20,6 @@ struct Strips {
   int rows = 0;              // of each strip; the middle one lies on the rough border
   std::vector<double> x, y;  // of the middle of the strip on the plane of the top face [m]
   std::vector<float> light;  // rows of all strips, NaN where not to be looked at
-  std::vector<float> lower;  // first row over half light and last row under it, mean of the sub-columns
-  std::vector<float> upper;
 
   std::size_t size() const { return x.size(); }
   const float* strip(std::size_t k) const { return &light[k * static_cast<std::size_t>(rows)]; }
@@ -90,13 +90,6 @@ struct Level {
   double dark = 0;
   double lit = 0;
 };
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Mean light of a strip's rows with offsets from `from` to `to`; NaN where there are none.
 double mean_light(const Strips& strips, std::size_t k, double from, double to) {
@@ -191,21 +184,14 @@ struct MeanStep {
         cost += count[i] * std::pow(light[i] - normal_distribution(offset[i] / w), 2);
       return cost;
     };
-    double low = std::log(0.3);
-    double high = std::log(static_cast<double>(rows) / 2);
-    constexpr double golden = 0.6180339887498949;
-    for (int i = 0; i < 25; ++i) {
-      const double a = high - golden * (high - low);
-      const double b = low + golden * (high - low);
-      (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
-    }
-    return std::exp((low + high) / 2);
+    constexpr double enough = 3e-5;
+    return std::exp(minimum_between(std::log(0.3), std::log(static_cast<double>(rows) / 2), enough, misfit));
   }
 };
 
 /// The place of half light in one strip, in rows from its middle; nothing when the strip has no clear border.
 std::optional<double> fit_border(const Strips& strips, std::size_t k, const Level& level, double width,
-                                 double start, double* miss) {
+                                 double start) {
   const float* light = strips.strip(k);
   const double step = level.lit - level.dark;
   const double half = (strips.rows - 1) / 2;
@@ -228,17 +214,10 @@ std::optional<double> fit_border(const Strips& strips, std::size_t k, const Leve
     if (std::abs(s) > half) return {};
     if (std::abs(change) < 1e-3) break;
   }
-  double squares = 0;
-  int count = 0;
-  for (int r = 0; r < strips.rows; ++r) {
-    if (std::isnan(light[r])) continue;
-    const double t = (strips.offset(r) - s) / width;
-    if (std::abs(t) > 4) continue;
-    squares += std::pow((static_cast<double>(light[r]) - level.dark) / step - normal_distribution(t), 2);
-    ++count;
-  }
-  if (count < 3) return {};
-  *miss = std::sqrt(squares / count);
+  int rows = 0;
+  for (int r = 0; r < strips.rows; ++r)
+    if (!std::isnan(light[r]) && std::abs(strips.offset(r) - s) <= 4 * width) ++rows;
+  if (rows < 3) return {};
   return s;
 }
 
@@ -268,8 +247,7 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
                          double spacing) {
   const RoughTerminus path = smoothed(rough);
   const double middle = rough.start + rough.step * static_cast<double>(rough.y.size()) / 2;
-  constexpr double tiny = 1e-5;
-  const double pixel_size = 2 * tiny / (geometry.pixel(middle, tiny) - geometry.pixel(middle, -tiny)).norm();
+  const double pixel_size = 1 / geometry.pixels_across(middle);
 
   Terminus terminus;
   terminus.pixel_size = pixel_size;
@@ -290,10 +268,8 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
     double widest = 0;
     for (int round = 0; round < 3; ++round) {
       levels = surrounding_levels(strips, s, clear, reach);
-      for (std::size_t k = 0; k < strips.size(); ++k) {
-        double miss = 0;
-        s[k] = fit_border(strips, k, levels[k], width[k], s[k], &miss).value_or(0);
-      }
+      for (std::size_t k = 0; k < strips.size(); ++k)
+        s[k] = fit_border(strips, k, levels[k], width[k], s[k]).value_or(0);
       widest = 0;
       for (std::size_t b = 0; b < blocks; ++b) {
         const std::size_t begin = b * strips.size() / blocks;
@@ -309,10 +285,8 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
     half_rows = static_cast<int>(std::ceil(5 * widest));
   }
 
-  std::vector<double> contrasts;
   for (std::size_t k = 0; k < strips.size(); ++k) {
-    double miss = 0;
-    const auto border = fit_border(strips, k, levels[k], width[k], s[k], &miss);
+    const auto border = fit_border(strips, k, levels[k], width[k], s[k]);
     if (!border) continue;
     double lower = 0;
     double upper = 0;
@@ -320,10 +294,8 @@ Terminus locate_terminus(const Tone& tone, const PhotoGeometry& geometry, const 
     const auto pixel = [&](double row) {
       return geometry.pixel(strips.x[k], rough.side * (strips.y[k] + row * pixel_size));
     };
-    terminus.stations.push_back({pixel(*border), pixel(lower), pixel(upper), miss});
-    contrasts.push_back(levels[k].lit / levels[k].dark);
+    terminus.stations.push_back({pixel(*border), pixel(lower), pixel(upper)});
   }
-  terminus.contrast = median(contrasts);
   terminus.width_px = median(width);
   return terminus;
 }

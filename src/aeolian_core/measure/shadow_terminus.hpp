@@ -14,12 +14,10 @@ struct Terminus {
     Eigen::Vector2d pixel;  ///< of half light
     Eigen::Vector2d lower;  ///< first light seen from the shadow, and last dark
     Eigen::Vector2d upper;
-    double miss = 0;  ///< rms of the light about the fitted border, of the step from dark to lit
   };
   std::vector<Station> stations;  ///< in the order of x
   double pixel_size = 0;          ///< on the plane of the top face, across the edge [m]
   double width_px = 0;            ///< median standard deviation of the border's blur (lens, penumbra, grains)
-  double contrast = 0;            ///< sunlit over shaded light
 };
 
 /// Fits the border of the shadow at stations `spacing` [m] apart near its rough place. Each station is a

@@ -1,4 +1,5 @@
 #include "aeolian_core/measure/wave_train.hpp"
+#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,17 +76,8 @@ Figure train_wavelength(const EvenProfile& profile, double shortest, double long
   std::size_t at = 0;
   while (costs[at] > equally_good * least) ++at;
   while (at + 1 < costs.size() && costs[at + 1] < costs[at]) ++at;
-  double best = tried[at];
-  const double step = std::log1p(0.1 * std::exp(best) / length);
-  double low = best - step;
-  double high = best + step;
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 30; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    (cost(a) < cost(b) ? high : low) = cost(a) < cost(b) ? b : a;
-  }
-  best = (low + high) / 2;
+  const double step = std::log1p(0.1 * std::exp(tried[at]) / length);
+  const double best = minimum_between(tried[at] - step, tried[at] + step, 1e-6 * step, cost);
 
   const TrainFit train = fit(z, profile.step, std::exp(best));
   const double h = step / 20;

@@ -1,4 +1,5 @@
 #include "aeolian_core/twin/translation.hpp"
+#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,27 +90,9 @@ Translation best_translation(const GridGeometry& geometry, const HeightMap::Laye
     consider(-i * step);
   }
 
-  // Golden section between the neighbours of the best.
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double low = std::max(best_shift - step, -reach);
-  double high = std::min(best_shift + step, reach);
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double at_a = consider(a);
-  double at_b = consider(b);
-  while (high - low > 0.01 && best_rmse > 0) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = consider(a = high - golden * (high - low));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = consider(b = low + golden * (high - low));
-    }
-  }
+  // Between the neighbours of the best.
+  if (best_rmse > 0)
+    minimum_between(std::max(best_shift - step, -reach), std::min(best_shift + step, reach), 0.01, consider);
   return {best_shift * geometry.cell(), best_rmse};
 }
 

@@ -9,6 +9,7 @@
 
 #include "aeolian_twin/photo/canvas.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -68,9 +69,7 @@ class Overlay {
     std::vector<double> steps;
     for (std::size_t i = 1; i < profile_.x.size(); ++i) steps.push_back(profile_.x[i] - profile_.x[i - 1]);
     if (steps.empty()) return;
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    const double gap = 5 * steps[steps.size() / 2];
+    const double gap = 5 * median(steps);
     std::size_t first = 0;
     for (std::size_t i = 1; i <= profile_.x.size(); ++i)
       if (i == profile_.x.size() || profile_.x[i] - profile_.x[i - 1] > gap) {

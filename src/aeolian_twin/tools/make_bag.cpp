@@ -22,6 +22,7 @@
 #include "aeolian_twin/tools/manifest.hpp"
 #include "aeolian_twin/tools/program.hpp"
 #include "aeolian_twin/tools/static_frames.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -90,13 +91,12 @@ class BagMaker {
     for (std::size_t i = 1; i < wind_.time.size(); ++i)
       intervals.push_back(wind_.time[i] - wind_.time[i - 1]);
     if (intervals.empty()) return;
-    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    std::nth_element(intervals.begin(), middle, intervals.end());
-    for (const WindRecord::Gap& gap : wind_.gaps(gap_intervals * *middle))
+    const double usual = median(intervals);
+    for (const WindRecord::Gap& gap : wind_.gaps(gap_intervals * usual))
       fmt::print(
           stderr,
           "make_bag: warning: wind record {}: nothing from t_s {} to {} ({} s between samples is usual)\n",
-          wind.file, gap.start, gap.end, *middle);
+          wind.file, gap.start, gap.end, usual);
   }
 
   template <class Message>
@@ -179,9 +179,7 @@ class BagMaker {
       const Eigen::Vector3f point(first_cloud_->x[i], first_cloud_->y[i], first_cloud_->z[i]);
       if (point.allFinite()) heights.push_back((pose * (origin + point.cast<double>())).z());
     }
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
-    return *middle;
+    return median(heights);
   }
 
   Manifest manifest_;
