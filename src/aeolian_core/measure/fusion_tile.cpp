@@ -178,6 +178,7 @@ FusionTile::Result FusionTile::publish(const FusionRules& rules, const TileLayer
             static_cast<float>(rules.first_rate_variance));
     } else if (verdict == Verdict::refused) {
       ++result.outlier_cells;
+      result.outliers += sum.count;
       write(at, estimates.height[at], estimates.variance[at], estimates.rate[at],
             estimates.rate_variance[at]);
     }
@@ -197,6 +198,11 @@ void FusionTile::begin_cell(std::size_t at, const CellEstimate& known) {
   filter_.moment[at] = 0;
   count_[at] = 1;
   refusals_[at] = 0;
+}
+
+void FusionTile::forget_cell(std::size_t at) {
+  begin_cell(at, {0, 0, 0, 0});
+  count_[at] = 0;
 }
 
 void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {

@@ -55,12 +55,15 @@ class FusionTile {
   struct Result {
     std::size_t new_cells = 0;      ///< that begin, or begin anew, in the open scan
     std::size_t outlier_cells = 0;  ///< whose points were refused
+    std::size_t outliers = 0;       ///< points of these cells that were refused
   };
   /// Writes the estimates of the cells with points in the open scan.
   Result publish(const FusionRules& rules, const TileLayers& layers);
 
-  /// Begins a cell from a known map at time zero; no scan may be open.
+  /// Begins a cell from a known map at the tile's time; the open scan has no points in the tile yet.
   void begin_cell(std::size_t cell, const CellEstimate& known);
+  /// Makes a cell unknown; likewise.
+  void forget_cell(std::size_t cell);
   /// Moves on to the time `end`, which then is zero: the clock jumped back.
   void restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps);
   /// Writes the number of points on which each known cell rests, the open scan included; rows `stride` apart.
