@@ -18,4 +18,5 @@
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/surface/shading.hpp"
+#include "aeolian_core/surface/submap.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
