@@ -13,6 +13,7 @@
 #include "aeolian_core/surface/geotiff.hpp"
 #include "aeolian_core/surface/grid_geometry.hpp"
 #include "aeolian_core/surface/height_map.hpp"
+#include "aeolian_core/surface/held_map.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
 #include "aeolian_core/surface/preview.hpp"
 #include "aeolian_core/surface/random.hpp"
