@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
@@ -172,9 +171,8 @@ GeotiffNotes read_geotiff_notes(const std::string& path) {
   const QuietGdal quiet;
   const Dataset dataset = open(path, "GeoTIFF '" + path + "': ");
   GeotiffNotes notes;
-  const CPLStringList items(dataset->GetMetadata(), /*bTakeOwnership=*/FALSE);
-  for (const char* item : items) {
-    const std::string text = item;
+  for (CSLConstList item = dataset->GetMetadata(); item != nullptr && *item != nullptr; ++item) {
+    const std::string text = *item;
     const std::size_t sign = text.find('=');
     if (sign != std::string::npos) notes[text.substr(0, sign)] = text.substr(sign + 1);
   }

@@ -1,30 +1,23 @@
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
-#include <grid_map_msgs/GetGridMap.h>
-#include <grid_map_msgs/ProcessFile.h>
-#include <grid_map_msgs/SetGridMap.h>
 #include <pluginlib/class_list_macros.hpp>
-#include <std_srvs/Empty.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/surface/submap.hpp"
 #include "aeolian_twin/nodes/autosave.hpp"
 #include "aeolian_twin/nodes/cloud_input.hpp"
-#include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/live_map.hpp"
 #include "aeolian_twin/nodes/map_publisher.hpp"
+#include "aeolian_twin/nodes/map_services.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
 namespace {
 
-const std::string map_topic = "height_map";
+const std::string autosave_topic = "height_map";
 
 FusionParameters read_fusion(const Parameters& parameters, const SensorNoise& sensor) {
   FusionParameters fusion;
@@ -46,29 +39,6 @@ std::optional<GridGeometry> read_grid(const Parameters& parameters) {
   const double x = parameters.number("min_x");
   const double y = parameters.number("min_y");
   return GridGeometry::covering(x, y, x + length_x, y + length_y, parameters.number("cell_size"));
-}
-
-/// The cells of a map within a box about a point; throws Error when there are none.
-CellRange cells_within(const GridGeometry& g, const Eigen::Vector2d& centre, double length_x,
-                       double length_y) {
-  const auto bounded = [](double cells, int count) {
-    return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(count)));
-  };
-  const double slack = 1e-6;  // of a cell: borders that are meant to be those of cells
-  const auto first = [&](double from, int count) { return bounded(std::floor(from + slack), count); };
-  const auto end = [&](double to, int count) { return bounded(std::ceil(to - slack), count); };
-  const double x = (centre.x() - g.origin_x()) / g.cell();
-  const double y = (centre.y() - g.origin_y()) / g.cell();
-  const double half_x = length_x / (2 * g.cell());
-  const double half_y = length_y / (2 * g.cell());
-  const CellRange range{first(x - half_x, g.nx()), end(x + half_x, g.nx()), first(y - half_y, g.ny()),
-                        end(y + half_y, g.ny())};
-  if (!(length_x > 0 && length_y > 0) || range.x0 >= range.x1 || range.y0 >= range.y1)
-    throw Error(fmt::format(
-        "a submap of {} m x {} m about ({}, {}) m has no cell of the map, which is {} m x "
-        "{} m from ({}, {}) m",
-        length_x, length_y, centre.x(), centre.y(), g.length_x(), g.length_y(), g.origin_x(), g.origin_y()));
-  return range;
 }
 
 }  // namespace
@@ -125,7 +95,7 @@ class HeightMapper : public Node {
   void fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp,
             const SensorSettings& sensor) {
     const std::string clouds = sensor.name.empty() ? "clouds" : sensor.name + " clouds";
-    if (!updates_enabled_) {
+    if (!services_->updates_enabled()) {
       good(clouds, "not used: disable_updates was called");
       return;
     }
@@ -149,116 +119,28 @@ class HeightMapper : public Node {
   }
 
   void serve() {
-    services_ = {nh().advertiseService("save_map", &HeightMapper::save, this),
-                 nh().advertiseService("load_map", &HeightMapper::load, this),
-                 nh().advertiseService("clear_map", &HeightMapper::clear, this),
-                 nh().advertiseService("get_submap", &HeightMapper::get_submap, this),
-                 nh().advertiseService("masked_replace", &HeightMapper::masked_replace, this),
-                 nh().advertiseService("enable_updates", &HeightMapper::enable_updates, this),
-                 nh().advertiseService("disable_updates", &HeightMapper::disable_updates, this)};
+    MapServices::Host host{*live_, tf_buffer_};
+    host.default_file = [this] {
+      std::string file = parameters().text("map_file");
+      private_nh().getParam("map_file", file);  // anew at each call, so that `rosparam set` chooses the next
+      return file;
+    };
+    host.is_another = [this] {
+      publisher_->note_all();
+      publish_replaced();
+    };
+    host.has_changed = [this](const TileMask& tiles) {
+      publisher_->note(tiles);
+      publish_replaced();
+    };
+    host.good = [this](const std::string& service, const std::string& line) { good(service, line); };
+    host.bad = [this](const std::string& service, const std::string& line) { bad(service, line); };
+    services_ = std::make_unique<MapServices>(nh(), std::move(host));
   }
 
-  /// Does the work of a service and tells the line that it gives, or its error.
-  template <class Work>
-  bool attempt(const std::string& service, Work&& work) {
-    try {
-      good(service, work());
-      return true;
-    } catch (const Error& error) {
-      bad(service, error.what());
-      return false;
-    }
-  }
-
-  /// The file that a request names, or else the parameter ~map_file, read anew so that `rosparam set` chooses
-  /// the next.
-  std::string file_of(const grid_map_msgs::ProcessFile::Request& request) {
-    std::string file = parameters().text("map_file");
-    private_nh().getParam("map_file", file);
-    return std::filesystem::absolute(request.file_path.empty() ? file : request.file_path).string();
-  }
-
-  static std::string topic_of(const grid_map_msgs::ProcessFile::Request& request) {
-    return request.topic_name.empty() ? map_topic : request.topic_name;
-  }
-
-  bool save(grid_map_msgs::ProcessFile::Request& request, grid_map_msgs::ProcessFile::Response& response) {
-    response.success = attempt("save_map", [&] {
-      const std::string file = file_of(request);
-      save_map(live_->stored(), file, topic_of(request));
-      return "saved to " + file;
-    });
-    return true;
-  }
-
-  bool load(grid_map_msgs::ProcessFile::Request& request, grid_map_msgs::ProcessFile::Response& response) {
-    response.success = attempt("load_map", [&] {
-      const std::string file = file_of(request);
-      live_->load(load_map(file, topic_of(request)));
-      show_another_map();
-      return "loaded from " + file;
-    });
-    return true;
-  }
-
-  bool clear(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-    if (!live_->begun()) return true;
-    live_->clear();
-    show_another_map();
-    return true;
-  }
-
-  void show_another_map() {
+  void publish_replaced() {
     unsaved_ = true;
-    publisher_->note_all();
     publisher_->publish();
-  }
-
-  bool get_submap(grid_map_msgs::GetGridMap::Request& request,
-                  grid_map_msgs::GetGridMap::Response& response) {
-    return attempt("get_submap", [&] {
-      HeightMap part = submap(live_->map(), cells_within(live_->map().geometry(), position_of(request),
-                                                         request.length_x, request.length_y));
-      HeightMap asked(part.geometry());
-      for (const std::string& name : request.layers.empty() ? part.names() : request.layers)
-        asked.add(name, std::move(part.layer(name)));
-      std_msgs::Header header;
-      header.frame_id = live_->frame();
-      header.stamp = live_->stamp();
-      response.map = to_message(asked, header);
-      return fmt::format("{} x {} cells", asked.geometry().nx(), asked.geometry().ny());
-    });
-  }
-
-  Eigen::Vector2d position_of(const grid_map_msgs::GetGridMap::Request& request) {
-    const Eigen::Vector3d position(request.position_x, request.position_y, 0);
-    if (request.frame_id.empty() || request.frame_id == live_->frame()) return position.head<2>();
-    try {
-      const auto transform = tf_buffer_.lookupTransform(live_->frame(), request.frame_id, ros::Time());
-      return (tf2::transformToEigen(transform) * position).head<2>();
-    } catch (const tf2::TransformException& error) {
-      throw Error(error.what());
-    }
-  }
-
-  bool masked_replace(grid_map_msgs::SetGridMap::Request& request, grid_map_msgs::SetGridMap::Response&) {
-    return attempt("masked_replace", [&] {
-      const TileMask changed = live_->replace(to_height_map(request.map), request.map.info.header.frame_id);
-      unsaved_ = true;
-      publisher_->note(changed);
-      publisher_->publish();
-      return std::string("replaced");
-    });
-  }
-
-  bool enable_updates(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-    updates_enabled_ = true;
-    return true;
-  }
-
-  bool disable_updates(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-    updates_enabled_ = false;
-    return true;
   }
 
   /// A node that was killed goes on with the map that it saved.
@@ -266,12 +148,8 @@ class HeightMapper : public Node {
     const double period = parameters().number("autosave_period");
     if (period == 0) return;
     const std::string file = std::filesystem::absolute(parameters().text("autosave_file")).string();
-    if (std::filesystem::exists(file))
-      attempt("autosave", [&] {
-        live_->load(load_map(file, map_topic));
-        return "went on with the map of " + file;
-      });
-    autosave_ = std::make_unique<Autosave>(file, map_topic);
+    if (std::filesystem::exists(file)) go_on_with(file);
+    autosave_ = std::make_unique<Autosave>(file, autosave_topic);
     autosave_timer_ = nh().createWallTimer(ros::WallDuration(period), [this](const ros::WallTimerEvent&) {
       report_autosave();
       if (!unsaved_ || autosave_->under_way()) return;
@@ -280,29 +158,38 @@ class HeightMapper : public Node {
     });
   }
 
+  void go_on_with(const std::string& file) {
+    try {
+      live_->load(load_map(file, autosave_topic));
+      good("autosave", "went on with the map of " + file);
+    } catch (const Error& error) {
+      bad("autosave", error.what());
+    }
+  }
+
   void report_autosave() {
     if (!autosave_) return;
-    if (const auto complaint = autosave_->finished()) {
-      attempt("autosave", [&] {
-        if (complaint->empty()) return "saved to " + autosave_->file();
-        unsaved_ = true;
-        throw Error(*complaint);
-      });
+    const std::optional<std::string> complaint = autosave_->finished();
+    if (!complaint) return;
+    if (complaint->empty()) {
+      good("autosave", "saved to " + autosave_->file());
+    } else {
+      bad("autosave", *complaint);
+      unsaved_ = true;
     }
   }
 
   std::unique_ptr<LiveMap> live_;
   std::unique_ptr<MapPublisher> publisher_;
+  std::unique_ptr<MapServices> services_;
   std::unique_ptr<Autosave> autosave_;
   bool unsaved_ = false;
-  bool updates_enabled_ = true;
   ros::Duration publish_period_;
   ros::Time published_;
 
   tf2_ros::Buffer tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::vector<std::unique_ptr<CloudInput>> inputs_;
-  std::vector<ros::ServiceServer> services_;
   ros::WallTimer autosave_timer_;
 };
 

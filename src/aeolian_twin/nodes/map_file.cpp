@@ -1,12 +1,17 @@
 #include "aeolian_twin/nodes/map_file.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
 #include <grid_map_msgs/GridMap.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -51,18 +56,40 @@ StoredMap load_geotiff(const std::string& file) {
   return stored;
 }
 
+/// A file in memory. A rosbag::Bag that meets a full disk ends the program, from its destructor; here it
+/// meets none.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("map", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw Error(fmt::format("no file in memory: {}", std::strerror(errno)));
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
 void save_bag(const StoredMap& stored, const std::string& file, const std::string& topic) {
   std_msgs::Header header;
   header.frame_id = stored.frame;
   header.stamp = stored.stamp;
+  const MemoryFile memory;
+  try {
+    rosbag::Bag bag(memory.path(), rosbag::bagmode::Write);
+    bag.write(topic, std::max(stored.stamp, ros::TIME_MIN), to_message(stored.map, header));
+    bag.close();
+  } catch (const rosbag::BagException& error) {
+    throw Error(fmt::format("bag '{}': {}", file, error.what()));
+  }
   write_atomically(file, [&](const std::string& temporary) {
-    try {
-      rosbag::Bag bag(temporary, rosbag::bagmode::Write);
-      bag.write(topic, std::max(stored.stamp, ros::TIME_MIN), to_message(stored.map, header));
-      bag.close();
-    } catch (const rosbag::BagException& error) {
-      throw Error(fmt::format("bag '{}': {}", file, error.what()));
-    }
+    std::error_code error;
+    std::filesystem::copy_file(memory.path(), temporary, std::filesystem::copy_options::overwrite_existing,
+                               error);
+    if (error) throw Error(fmt::format("bag '{}': {}", file, error.message()));
   });
 }
 

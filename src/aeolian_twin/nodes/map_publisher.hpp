@@ -5,6 +5,7 @@
 #include <grid_map_msgs/GridMap.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <ros/time.h>
 
 #include "aeolian_core/surface/tile_mask.hpp"
 #include "aeolian_core/surface/unseen_changes.hpp"
@@ -12,9 +13,11 @@
 
 namespace aeolian {
 
-/// Publishes a live map: whole on `height_map`, or, when asked to be incremental, only the tiles that differ
-/// notably from what was published, as grid maps of a rectangle each on `height_map_updates`. One who starts
-/// to listen on either topic gets the whole map. Nothing is made that nobody listens to.
+/// Publishes a live map, whole on `height_map` (latched), or, when asked to be incremental, only the tiles
+/// that differ notably from what was published, as grid maps of a rectangle each on `height_map_updates`. One
+/// who starts to listen on either topic gets the whole map; with updates, all get it again after ten seconds
+/// in which it has changed, so that nothing that was lost is missed for long. Nothing is made that nobody
+/// listens to.
 class MapPublisher {
  public:
   /// `live` must outlive the publisher.
@@ -24,7 +27,7 @@ class MapPublisher {
 
   /// Values of these tiles have changed, or, without an argument, the map is another one.
   void note(const TileMask& changed);
-  void note_all() { unseen_.reset(); }
+  void note_all();
   /// Publishes what has changed.
   void publish();
 
@@ -33,10 +36,13 @@ class MapPublisher {
   grid_map_msgs::GridMap whole() const;
   void send_whole(const ros::SingleSubscriberPublisher& to) const;
   void publish_changes();
-  void publish_all_as_update();
+  void publish_whole();
+  void begin_updates();
 
   const LiveMap& live_;
   bool incremental_;
+  bool latched_ = false;  ///< the last whole map that was published is the present one
+  ros::WallTime whole_at_;
   TileMask changed_;
   std::unique_ptr<UnseenChanges> unseen_;
   ros::Publisher whole_publisher_;
