@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include "ros_test.hpp"
 #include "running_program.hpp"
 #include <geometry_msgs/TransformStamped.h>
@@ -429,15 +430,6 @@ TEST_F(HeightMapperTest, PublishesOnlyWhatChanged) {
   EXPECT_EQ(count_known(map.layer(layer::elevation)), count_known(now.layer(layer::elevation)));
 }
 
-/// What a program prints on stderr, and its exit code.
-std::pair<std::string, int> run(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1 >/dev/null").c_str(), "r");
-  std::string text;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-  const int status = pclose(pipe);
-  return {text, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
-}
-
 TEST(Programs, RefuseABadParameterInOneLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"height_mapper _cell_size:=-1",
@@ -454,9 +446,9 @@ TEST(Programs, RefuseABadParameterInOneLine) {
        "surface_display: /bad/palette: 'grey' is not allowed, must be one of sand, diverging\n"},
   };
   for (const auto& [command, line] : cases) {
-    const auto [text, code] = run(std::string(AEOLIAN_BIN) + "/" + command + " __name:=bad");
-    EXPECT_EQ(code, 1) << command;
-    EXPECT_EQ(text, line);
+    const Outcome outcome = run_program(command + " __name:=bad");
+    EXPECT_EQ(outcome.code, 1) << command;
+    EXPECT_EQ(outcome.err, line);
     ros::param::del("/bad");
   }
 }
