@@ -119,7 +119,7 @@ struct HeightFusion::Workers {
 
   void reset() {
     for (Worker& worker : of_threads) {
-      worker.buckets.clear();
+      worker.buckets.reset(0, 0);
       worker.counts = {};
       worker.outlier_cells = 0;
       worker.outliers = 0;
@@ -131,7 +131,7 @@ struct HeightFusion::Workers {
         tbb::blocked_range<std::size_t>(0, cloud.size(), points_at_once),
         [&](const tbb::blocked_range<std::size_t>& range) {
           Worker& worker = of_threads.local();
-          worker.buckets.reserve(tiles);
+          if (worker.buckets.empty()) worker.buckets.reset(tiles, cloud.size());
           std::int32_t tile[PointLocator::batch];
           Sample sample[PointLocator::batch];
           for (std::size_t i = range.begin(); i < range.end(); i += PointLocator::batch) {
@@ -149,6 +149,7 @@ HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters&
   check(parameters);
   rules_.gate = {parameters.gate_sigma * parameters.gate_sigma, repose_relief * geometry.cell(),
                  fixed::reference_weight * reference_variance(parameters)};
+  rules_.scale = PointScale(rules_.gate.weight_scale);
   rules_.robust = parameters.robust;
   rules_.patience = parameters.gate_patience;
   rules_.first_rate_variance = parameters.change.rate_sigma * parameters.change.rate_sigma;
@@ -217,14 +218,18 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
           FusionTile& tile = *tiles_[at];
           std::size_t agreeing = 0;
+          const auto for_each_block = [&](auto&& visit) {
+            for (const Workers::Worker& worker : workers_->of_threads) worker.buckets.for_each(at, visit);
+          };
+          FusionTile::Rows rows = 0;
+          for_each_block(
+              [&](const Sample* samples, std::size_t count) { rows |= FusionTile::rows_of(samples, count); });
           const TileLayers layers = layers_of_tile(at, result.changed);
-          FusionTile::prefetch(layers);
-          tile.open(scan_, newest_, rules_, own.steps);
-          for (const Workers::Worker& worker : workers_->of_threads)
-            worker.buckets.for_each(at, [&](const Sample* samples, std::size_t count) {
-              agreeing += tile.add(samples, count, rules_);
-            });
-          const FusionTile::Result of_tile = tile.publish(rules_, layers);
+          tile.open(scan_, newest_, rows, rules_, own.steps, layers);
+          for_each_block([&](const Sample* samples, std::size_t count) {
+            agreeing += tile.add(samples, count, rules_);
+          });
+          const FusionTile::Result of_tile = tile.publish(rows, rules_, layers);
           own.outlier_cells += of_tile.outlier_cells;
           own.outliers += of_tile.outliers;
           if (agreeing + of_tile.new_cells > 0) {
@@ -241,12 +246,10 @@ TileLayers HeightFusion::layers_of_tile(std::size_t tile, const TileMask& tiling
   const CellRange range = tiling.range(at % tiling.tiles_x(), at / tiling.tiles_x());
   const std::size_t first = g.index(range.x0, range.y0);
   const auto data = [&](const std::string& name) { return map_.layer(name).data() + first; };
-  return {data(layer::elevation),
-          data(layer::variance),
-          data(layer::rate),
-          data(layer::rate_variance),
-          {static_cast<std::size_t>(range.y1 - range.y0), static_cast<std::size_t>(range.x1 - range.x0),
-           static_cast<std::size_t>(g.nx())}};
+  return {{data(layer::elevation), data(layer::variance), data(layer::rate), data(layer::rate_variance)},
+          static_cast<std::size_t>(range.y1 - range.y0),
+          static_cast<std::size_t>(range.x1 - range.x0),
+          static_cast<std::size_t>(g.nx())};
 }
 
 void HeightFusion::set_clock(double stamp) {
@@ -280,12 +283,13 @@ TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& m
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (std::isnan(mask[i])) continue;
     const CellIndex at = g.cell_at(i);
-    constexpr int side = FusionTile::side;
-    auto& tile = tiles_[static_cast<std::size_t>(at.y / side * changed.tiles_x() + at.x / side)];
+    constexpr auto side = static_cast<int>(FusionTile::side);
+    const auto tile_at = static_cast<std::size_t>(at.y / side * changed.tiles_x() + at.x / side);
+    auto& tile = tiles_[tile_at];
     const std::optional<CellEstimate> cell = cells.at(i);
     if (!tile && !cell) continue;
     if (!tile) tile = std::make_unique<FusionTile>();
-    tile->open(scan_, newest_, rules_, steps);
+    tile->open(scan_, newest_, ~FusionTile::Rows{0}, rules_, steps, layers_of_tile(tile_at, changed));
     const auto in_tile = static_cast<std::size_t>(at.y % side * side + at.x % side);
     if (cell)
       tile->begin_cell(in_tile, *cell);

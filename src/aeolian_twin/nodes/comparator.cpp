@@ -7,6 +7,7 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/twin/comparison.hpp"
+#include "aeolian_core/twin/difference.hpp"
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/twin/on_grid.hpp"
 #include "aeolian_core/wind/direction.hpp"
@@ -129,9 +130,7 @@ class Comparator : public Node {
                                           wind_direction(issued, header.stamp));
     comparison_publisher_.publish(to_message(comparison, header, issued));
 
-    HeightMap difference(geometry);
-    HeightMap::Layer& values = difference.add("difference");
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = predicted[i] - heights[i];
+    HeightMap difference = difference_map(forecast, measured);
     difference.add(layer::elevation, heights);
     difference.add(layer::lead_time, forecast.layer(layer::lead_time));
     difference_publisher_.publish(to_message(difference, measured_message.info.header));
@@ -175,26 +174,27 @@ class Comparator : public Node {
 };
 
 NodeDescription describe_comparator() {
-  return {"comparator",
-          "scores every forecast against the measurement of its time",
-          {"height_map (grid_map_msgs/GridMap)", "forecast (grid_map_msgs/GridMap)",
-           "wind_field (grid_map_msgs/GridMap)"},
-          {"comparison (aeolian_msgs/Comparison)",
-           "difference (grid_map_msgs/GridMap, latched): difference (predicted - measured), elevation "
-           "(measured) [m], lead_time [s]"},
-          {
-              frame_parameter(),
-              {"tolerance", 1.0, "s", "the map compared must be so near to the forecast's time",
-               Limits::not_negative()},
-              {"direction_deg", 0.0, "degrees",
-               "where the wind blows to, counter-clockwise from east, until it is known",
-               Limits::between(-360, 360)},
-              {"max_pending", 100, "", "forecasts that may wait for their measurement",
-               Limits::between(1, 10000)},
-              {"max_maps", 20, "", "measured maps that are kept for forecasts that come late",
-               Limits::between(2, 1000)},
-          },
-          [] { return std::make_shared<Comparator>(); }};
+  return {
+      "comparator",
+      "scores every forecast against the measurement of its time",
+      {"height_map (grid_map_msgs/GridMap)", "forecast (grid_map_msgs/GridMap)",
+       "wind_field (grid_map_msgs/GridMap)"},
+      {"comparison (aeolian_msgs/Comparison)",
+       "difference (grid_map_msgs/GridMap, latched): difference (predicted - measured), lod95 (what noise "
+       "alone exceeds in 5 % of the cells; of maps with variance), elevation (measured) [m], lead_time [s]"},
+      {
+          frame_parameter(),
+          {"tolerance", 1.0, "s", "the map compared must be so near to the forecast's time",
+           Limits::not_negative()},
+          {"direction_deg", 0.0, "degrees",
+           "where the wind blows to, counter-clockwise from east, until it is known",
+           Limits::between(-360, 360)},
+          {"max_pending", 100, "", "forecasts that may wait for their measurement",
+           Limits::between(1, 10000)},
+          {"max_maps", 20, "", "measured maps that are kept for forecasts that come late",
+           Limits::between(2, 1000)},
+      },
+      [] { return std::make_shared<Comparator>(); }};
 }
 
 }  // namespace aeolian
