@@ -49,14 +49,17 @@ class MapReceiverTest : public ::testing::Test {
   ros::Publisher whole_ = nh_.advertise<grid_map_msgs::GridMap>("map", 10);
   ros::Publisher updates_ = nh_.advertise<grid_map_msgs::GridMap>("map_updates", 100);
   MapReceiver receiver_{
-      nh_, "map",
+      nh_,
+      "map",
       [this](const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
         told_.push_back({map, header, changed});
       },
       [this](const std::string& reason) { refused_ = reason; },
-      [](const std::string& topic, const std_msgs::Header& header) {
-        if (header.frame_id == "odom") throw Error(topic + ": not in odom");
-      }};
+      {{layer::elevation, layer::ground},
+       [](const std::string& topic, const std_msgs::Header& header) {
+         if (header.frame_id == "odom") throw Error(topic + ": not in odom");
+       },
+       10}};
 };
 
 TEST_F(MapReceiverTest, PartsOfOneStampAreOneChange) {
@@ -90,6 +93,17 @@ TEST_F(MapReceiverTest, AWholeMapTellsWhatDiffersOrNothing) {
   whole_.publish(message(raised, 3));
   ASSERT_TRUE(tells(3));
   EXPECT_EQ(told_[2].changed.count(), 1);
+}
+
+TEST_F(MapReceiverTest, LayersThatAreNotWantedAreNotSeen) {
+  for (const float variance : {1.0F, 2.0F}) {
+    HeightMap map = flat(0);
+    map.add(layer::variance, variance);
+    whole_.publish(message(map, static_cast<double>(variance)));
+  }
+  ASSERT_TRUE(tells(2));
+  EXPECT_EQ(told_[0].map.names(), std::vector<std::string>{layer::elevation});
+  EXPECT_TRUE(told_[1].changed.empty());
 }
 
 TEST_F(MapReceiverTest, APartBeforeTheWholeMapIsQuietlyKept) {

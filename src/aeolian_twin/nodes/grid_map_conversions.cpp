@@ -117,7 +117,7 @@ grid_map_msgs::GridMap to_message(const HeightMap& map, const std_msgs::Header& 
   return message;
 }
 
-HeightMap to_height_map(const grid_map_msgs::GridMap& message) {
+HeightMap to_height_map(const grid_map_msgs::GridMap& message, const std::vector<std::string>& only) {
   HeightMap map(to_geometry(message.info));
   const GridGeometry& geometry = map.geometry();
   if (message.layers.size() != message.data.size())
@@ -128,9 +128,11 @@ HeightMap to_height_map(const grid_map_msgs::GridMap& message) {
   if (first_row >= geometry.nx() || first_column >= geometry.ny())
     throw Error(fmt::format("grid map: start index is ({}, {}), must be within {} rows and {} columns",
                             first_row, first_column, geometry.nx(), geometry.ny()));
-  for (std::size_t i = 0; i < message.layers.size(); ++i)
-    map.add(message.layers[i],
-            to_layer(message.layers[i], message.data[i], geometry, first_row, first_column));
+  for (std::size_t i = 0; i < message.layers.size(); ++i) {
+    const std::string& name = message.layers[i];
+    if (only.empty() || std::find(only.begin(), only.end(), name) != only.end())
+      map.add(name, to_layer(name, message.data[i], geometry, first_row, first_column));
+  }
   return map;
 }
 

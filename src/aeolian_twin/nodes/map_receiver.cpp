@@ -22,8 +22,8 @@ HeldMap::Stamp to_stamp(const ros::Time& time) {
 }  // namespace
 
 MapReceiver::MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken taken, Refused refused,
-                         Accept accept)
-    : taken_(std::move(taken)), refused_(std::move(refused)), accept_(std::move(accept)) {
+                         WantedMap wanted)
+    : taken_(std::move(taken)), refused_(std::move(refused)), wanted_(std::move(wanted)) {
   const auto told = [this](const ros::WallTimerEvent&) { guarded([this] { tell(); }); };
   last_part_ = node.createWallTimer(part_gap, told, /*oneshot=*/true, /*autostart=*/false);
   const boost::function<void(const Message::ConstPtr&)> whole = [this](const Message::ConstPtr& message) {
@@ -32,7 +32,7 @@ MapReceiver::MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken 
   const boost::function<void(const Message::ConstPtr&)> part = [this](const Message::ConstPtr& message) {
     guarded([&] { take_part(*message); });
   };
-  whole_ = node.subscribe<Message>(topic, 1, whole);
+  whole_ = node.subscribe<Message>(topic, wanted_.queue_size, whole);
   updates_ = node.subscribe<Message>(topic + "_updates", most_waiting_parts, part);
 }
 
@@ -66,9 +66,9 @@ void MapReceiver::take_part(const Message& message) {
 }
 
 HeightMap MapReceiver::decode(const Message& message, const std::string& topic) const {
-  if (accept_) accept_(topic, message.info.header);
+  if (wanted_.accept) wanted_.accept(topic, message.info.header);
   try {
-    return to_height_map(message);
+    return to_height_map(message, wanted_.layers);
   } catch (const Error& error) {
     throw Error(topic + ": " + error.what());
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <grid_map_msgs/GridMap.h>
 #include <ros/node_handle.h>
@@ -13,6 +15,15 @@
 
 namespace aeolian {
 
+/// What a node wants of a map that it receives.
+struct WantedMap {
+  /// Others are not even read; empty: all.
+  std::vector<std::string> layers;
+  /// Throws Error for a header that is not wanted.
+  std::function<void(const std::string& topic, const std_msgs::Header& header)> accept;
+  std::uint32_t queue_size = 1;  ///< whole maps that may wait to be taken
+};
+
 /// Keeps the map that a node publishes: whole maps on `topic`, what changed of them on `topic`_updates (grid
 /// maps of a part of the cells, the same layers). Tells after each message which tiles differ from before;
 /// parts of one stamp are one change, which is told when all have come.
@@ -21,17 +32,15 @@ namespace aeolian {
 /// new. A publisher without updates is understood as well.
 class MapReceiver {
  public:
-  /// The whole map, its header and the tiles that hold a value that differs from before (all tiles when the
-  /// grid or the layers are new; none when the map is confirmed).
+  /// The whole map, its header and the tiles that hold a value that differs from before in a wanted
+  /// layer (all tiles when the grid or the layers are new; none when the map is confirmed).
   using Taken =
       std::function<void(const HeightMap& map, const std_msgs::Header& header, const TileMask& changed)>;
   /// One line, with the topic, about a message that is no map or is not accepted; the last map is kept.
   using Refused = std::function<void(const std::string& reason)>;
-  /// Throws Error for a header that is not wanted.
-  using Accept = std::function<void(const std::string& topic, const std_msgs::Header& header)>;
 
   MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken taken, Refused refused,
-              Accept accept = {});
+              WantedMap wanted = {});
   MapReceiver(const MapReceiver&) = delete;
   MapReceiver& operator=(const MapReceiver&) = delete;
 
@@ -51,7 +60,7 @@ class MapReceiver {
 
   Taken taken_;
   Refused refused_;
-  Accept accept_;
+  WantedMap wanted_;
   HeldMap held_;
   std_msgs::Header header_;           ///< of the newest message in the map
   std::optional<TileMask> not_told_;  ///< what the parts of one stamp have changed
