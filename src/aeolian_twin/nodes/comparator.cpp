@@ -28,7 +28,7 @@ class Comparator : public Node {
 
   struct Measured {
     std_msgs::Header header;
-    std::shared_ptr<const HeightMap> surface;  ///< elevation only
+    std::shared_ptr<const HeightMap> surface;  ///< elevation, and variance if known
   };
   struct WindSample {
     ros::Time stamp;
@@ -46,7 +46,7 @@ class Comparator : public Node {
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Comparator::take_wind, this);
     forecast_subscriber_ = nh().subscribe("forecast", 100, &Comparator::take_forecast, this);
     WantedMap wanted;
-    wanted.layers = {layer::elevation};
+    wanted.layers = {layer::elevation, layer::variance};
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
       require_frame(topic, header);
     };
@@ -144,7 +144,7 @@ class Comparator : public Node {
                                           wind_direction(issued, header.stamp));
     comparison_publisher_.publish(to_message(comparison, header, issued));
 
-    HeightMap difference = difference_map(forecast, measured);
+    HeightMap difference = difference_map(forecast, *measured.surface);
     difference.add(layer::elevation, heights);
     difference.add(layer::lead_time, forecast.layer(layer::lead_time));
     difference_publisher_.publish(to_message(difference, measured.header));

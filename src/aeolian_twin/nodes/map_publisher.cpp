@@ -73,8 +73,9 @@ void MapPublisher::publish_changes() {
   const HeightMap& map = live_.map();
   const TileMask news = unseen_->take(map, changed_);
   changed_.clear();
-  for (const CellRange& range : rectangles(news))
-    updates_publisher_.publish(to_message(submap(map, range), header()));
+  std::vector<CellRange> parts = rectangles(news);
+  if (parts.empty()) parts.push_back({0, 1, 0, 1});  // a cell, to say that the map holds at this time, too
+  for (const CellRange& part : parts) updates_publisher_.publish(to_message(submap(map, part), header()));
 }
 
 }  // namespace aeolian

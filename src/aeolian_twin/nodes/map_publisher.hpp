@@ -14,10 +14,10 @@
 namespace aeolian {
 
 /// Publishes a live map, whole on `height_map` (latched), or, when asked to be incremental, only the tiles
-/// that differ notably from what was published, as grid maps of a rectangle each on `height_map_updates`. One
-/// who starts to listen on either topic gets the whole map; with updates, all get it again after ten seconds
-/// in which it has changed, so that nothing that was lost is missed for long. Nothing is made that nobody
-/// listens to.
+/// that differ notably from what was published, as grid maps of a rectangle each on `height_map_updates`, or
+/// a single cell when none does. One who starts to listen on either topic gets the whole map; with updates,
+/// all get it again after ten seconds in which it has changed, so that nothing that was lost is missed for
+/// long. Nothing is made that nobody listens to.
 class MapPublisher {
  public:
   /// `live` must outlive the publisher.
