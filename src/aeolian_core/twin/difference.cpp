@@ -61,54 +61,52 @@ HeightMap::Layer combined(const HeightMap::Layer& a, const HeightMap::Layer& b, 
   return result;
 }
 
-struct Moments {
-  std::int64_t cells = 0;
-  Sums sum{};
-  Sums sum_of_squares{};
-};
-
-AEOLIAN_KERNEL void add_moments(const float* __restrict d, Moments& __restrict moments) {
-  std::int32_t cells = 0;
-  Sums sum = moments.sum;
-  Sums sum_of_squares = moments.sum_of_squares;
+AEOLIAN_KERNEL void add(const float* __restrict values, Sums& __restrict sums) {
+  double partial[lanes] = {};
   for (std::size_t i = 0; i < block; i += lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const float value = d[i + lane];
-      const double counted = static_cast<double>(known(value) ? value : 0);
-      cells += known(value) ? 1 : 0;
-      sum[lane] += counted;
-      sum_of_squares[lane] += counted * counted;
-    }
-  moments.cells += cells;
-  moments.sum = sum;
-  moments.sum_of_squares = sum_of_squares;
+    for (std::size_t lane = 0; lane < lanes; ++lane) partial[lane] += static_cast<double>(values[i + lane]);
+  for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += partial[lane];
 }
 
-struct Changes {
-  std::int64_t cells = 0;
-  Sums gained{}, lost{};                    ///< [m]
-  Sums gained_variance{}, lost_variance{};  ///< of lod95 [m^2]
-};
-
-AEOLIAN_KERNEL void add_changes(const float* __restrict d, const float* __restrict lod,
-                                Changes& __restrict changes) {
-  std::int32_t cells = 0;
-  Changes sums = changes;
+AEOLIAN_KERNEL void add_squares(const float* __restrict values, Sums& __restrict sums) {
+  double partial[lanes] = {};
   for (std::size_t i = 0; i < block; i += lanes)
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const float value = d[i + lane];
-      const float level = lod[i + lane];
-      const bool gained = value > level;
-      const bool lost = -value > level;
-      const auto variance = static_cast<double>(level * level);
-      cells += gained | lost ? 1 : 0;
-      sums.gained[lane] += gained ? static_cast<double>(value) : 0;
-      sums.lost[lane] += lost ? static_cast<double>(-value) : 0;
-      sums.gained_variance[lane] += gained ? variance : 0;
-      sums.lost_variance[lane] += lost ? variance : 0;
+      const auto value = static_cast<double>(values[i + lane]);
+      partial[lane] += value * value;
     }
-  sums.cells += cells;
-  changes = sums;
+  for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += partial[lane];
+}
+
+/// Copies a block with zeros for unknown values; how many are known.
+AEOLIAN_KERNEL std::int32_t take_known(const float* __restrict d, float* __restrict values) {
+  std::int32_t cells = 0;
+  for (std::size_t i = 0; i < block; ++i) {
+    values[i] = known(d[i]) ? d[i] : 0;
+    cells += known(d[i]) ? 1 : 0;
+  }
+  return cells;
+}
+
+/// What a block gained and lost beyond the level of detection, zero elsewhere [m].
+struct Changes {
+  float gained[block], lost[block];
+  float gained_level[block], lost_level[block];
+};
+
+AEOLIAN_KERNEL std::int32_t find_changes(const float* __restrict d, const float* __restrict lod,
+                                         Changes& __restrict changes) {
+  std::int32_t cells = 0;
+  for (std::size_t i = 0; i < block; ++i) {
+    const float value = d[i];
+    const float level = lod[i];
+    changes.gained[i] = value > level ? value : 0;
+    changes.lost[i] = -value > level ? -value : 0;
+    changes.gained_level[i] = value > level ? level : 0;
+    changes.lost_level[i] = -value > level ? level : 0;
+    cells += std::abs(value) > level ? 1 : 0;
+  }
+  return cells;
 }
 
 /// Calls `work(values of each layer)` for blocks of them, the last filled up.
@@ -128,14 +126,19 @@ void for_each_block(std::size_t count, Work&& work, const Layers&... layers) {
 }  // namespace
 
 DifferenceStatistics difference_statistics(const HeightMap::Layer& difference) {
-  Moments moments;
-  for_each_block(
-      difference.size(), [&](const float* d) { add_moments(d, moments); }, difference);
   DifferenceStatistics result;
-  result.cells = static_cast<std::size_t>(moments.cells);
+  Sums sum{};
+  Sums sum_of_squares{};
+  const auto add_block = [&](const float* d) {
+    std::array<float, block> values;
+    result.cells += static_cast<std::size_t>(take_known(d, values.data()));
+    add(values.data(), sum);
+    add_squares(values.data(), sum_of_squares);
+  };
+  for_each_block(difference.size(), add_block, difference);
   const auto count = static_cast<double>(result.cells);
-  result.bias = total(moments.sum) / count;
-  result.rmse = std::sqrt(total(moments.sum_of_squares) / count);
+  result.bias = total(sum) / count;
+  result.rmse = std::sqrt(total(sum_of_squares) / count);
   const double middle = quantile_of(difference, result.cells, 0.5);
   result.nmad = mad_to_sigma * quantile_of_distances(difference, result.cells, 0.5, middle);
   return result;
@@ -171,21 +174,26 @@ HeightMap difference_map(const HeightMap& a, const HeightMap& b) {
 SignificantChange significant_change(const HeightMap& difference) {
   const HeightMap::Layer& d = difference.layer(layer::difference);
   const HeightMap::Layer& lod = difference.layer(layer::lod95);
-  Changes changes;
-  for_each_block(
-      d.size(), [&](const float* values, const float* levels) { add_changes(values, levels, changes); }, d,
-      lod);
+  SignificantChange result;
+  Sums gained{}, lost{}, squared_gained_levels{}, squared_lost_levels{};
+  const auto add_block = [&](const float* values, const float* levels) {
+    Changes changes;
+    result.cells += static_cast<std::size_t>(find_changes(values, levels, changes));
+    add(changes.gained, gained);
+    add(changes.lost, lost);
+    add_squares(changes.gained_level, squared_gained_levels);
+    add_squares(changes.lost_level, squared_lost_levels);
+  };
+  for_each_block(d.size(), add_block, d, lod);
   const double area = difference.geometry().cell() * difference.geometry().cell();
   const auto sigma = [&](const Sums& squared_levels) {
     return area * std::sqrt(total(squared_levels)) / static_cast<double>(sigmas_of_95_percent);
   };
-  SignificantChange result;
-  result.cells = static_cast<std::size_t>(changes.cells);
   result.area = area * static_cast<double>(result.cells);
-  result.deposition = area * total(changes.gained);
-  result.erosion = area * total(changes.lost);
-  result.deposition_sigma = sigma(changes.gained_variance);
-  result.erosion_sigma = sigma(changes.lost_variance);
+  result.deposition = area * total(gained);
+  result.erosion = area * total(lost);
+  result.deposition_sigma = sigma(squared_gained_levels);
+  result.erosion_sigma = sigma(squared_lost_levels);
   return result;
 }
 

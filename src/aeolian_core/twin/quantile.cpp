@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "aeolian_core/measure/kernel.hpp"
 
@@ -11,7 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr std::size_t probes = 16384;
-constexpr std::size_t block = 16;
+constexpr std::size_t block = 2048;
 
 /// What is ranked: values about a centre, or how far they lie from it.
 struct Ranked {
@@ -23,13 +24,6 @@ struct Ranked {
     return v > folding * v ? v : folding * v;
   }
 };
-
-double value_of_rank(std::vector<double>& sample, double rank) {
-  const auto last = static_cast<double>(sample.size() - 1);
-  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, last));
-  std::nth_element(sample.begin(), at, sample.end());
-  return *at;
-}
 
 /// The value at a place (from 0) between the ranks of a sample, which is reordered.
 double value_at_place(std::vector<double>& sample, double place) {
@@ -48,23 +42,66 @@ struct Bracket {
 Bracket likely_bracket(std::vector<double>& probe, double share) {
   const auto count = static_cast<double>(probe.size());
   const double margin = 4 * std::sqrt(count * share * (1 - share)) + 4;
-  const double low = value_of_rank(probe, share * count - margin);
-  return {low, value_of_rank(probe, share * count + margin)};
+  const auto at_rank = [&](double rank) {
+    return probe.begin() + static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, count - 1));
+  };
+  const auto low = at_rank(share * count - margin);
+  const auto high = at_rank(share * count + margin);
+  std::nth_element(probe.begin(), low, probe.end());
+  const double least = *low;
+  std::nth_element(low, high, probe.end());
+  return {least, *high};
 }
 
-struct Counts {
-  std::int32_t below = 0;
-  std::int32_t between = 0;
+/// Floats between which lies, whatever the rounding, what a bracket holds.
+struct Sieve {
+  Sieve(const Ranked& ranked, const Bracket& bracket)
+      : centre(static_cast<float>(ranked.centre)),
+        folding(static_cast<float>(ranked.folding)),
+        low(static_cast<float>(bracket.low - margin(ranked, bracket))),
+        high(static_cast<float>(bracket.high + margin(ranked, bracket))) {}
+  static double margin(const Ranked& ranked, const Bracket& bracket) {
+    return 1e-6 * (std::abs(ranked.centre) + std::max(std::abs(bracket.low), std::abs(bracket.high)));
+  }
+
+  float centre, folding, low, high;
 };
 
-AEOLIAN_KERNEL Counts count(const float* values, Ranked ranked, Bracket bracket) {
-  Counts counts;
+/// Counts what lies below the sieve and marks what it holds: 1, else 0.
+AEOLIAN_KERNEL std::int32_t sift(const float* __restrict values, Sieve sieve, std::uint8_t* __restrict held) {
+  std::int32_t below[block];
   for (std::size_t i = 0; i < block; ++i) {
-    const double v = ranked(values[i]);
-    counts.below += v < bracket.low ? 1 : 0;
-    counts.between += (v >= bracket.low) & (v <= bracket.high) ? 1 : 0;
+    const float v = values[i] - sieve.centre;
+    const float folded = v > sieve.folding * v ? v : sieve.folding * v;
+    below[i] = folded < sieve.low ? 1 : 0;
+    const std::int32_t in = (folded >= sieve.low) & (folded <= sieve.high) ? 1 : 0;
+    held[i] = static_cast<std::uint8_t>(in);
   }
-  return counts;
+  std::int32_t sum = 0;
+  for (std::size_t i = 0; i < block; ++i) sum += below[i];
+  return sum;
+}
+
+/// How many of a block's values lie below the bracket; those within are added to `between`.
+std::size_t take_between(const float* values, const Ranked& ranked, const Bracket& bracket,
+                         std::vector<double>& between) {
+  std::array<std::uint8_t, block> held;
+  std::array<double, block + 1> kept;
+  auto below = static_cast<std::size_t>(sift(values, Sieve(ranked, bracket), held.data()));
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < block; at += sizeof(std::uint64_t)) {
+    std::uint64_t any;
+    std::memcpy(&any, &held[at], sizeof any);
+    if (any == 0) continue;
+    for (std::size_t i = at; i < at + sizeof any; ++i) {  // without a branch that could be guessed wrong
+      const double v = ranked(values[i]);
+      kept[count] = v;
+      below += static_cast<std::size_t>(held[i]) & static_cast<std::size_t>(v < bracket.low);
+      count += static_cast<std::size_t>(v >= bracket.low) & static_cast<std::size_t>(v <= bracket.high);
+    }
+  }
+  between.insert(between.end(), kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(count));
+  return below;
 }
 
 double quantile_of(const std::vector<float>& values, std::size_t known, double share, Ranked ranked) {
@@ -79,21 +116,13 @@ double quantile_of(const std::vector<float>& values, std::size_t known, double s
     const Bracket bracket = likely_bracket(sample, share);
     std::vector<double> between;
     std::size_t below = 0;
-    const auto take_between = [&](const float* from) {
-      const Counts counts = count(from, ranked, bracket);
-      below += static_cast<std::size_t>(counts.below);
-      if (counts.between == 0) return;
-      for (std::size_t i = 0; i < block; ++i) {
-        const double v = ranked(from[i]);
-        if (v >= bracket.low && v <= bracket.high) between.push_back(v);
-      }
-    };
     const std::size_t whole = values.size() / block * block;
-    for (std::size_t i = 0; i < whole; i += block) take_between(&values[i]);
+    for (std::size_t i = 0; i < whole; i += block)
+      below += take_between(&values[i], ranked, bracket, between);
     std::array<float, block> rest;
     rest.fill(NAN);
     std::copy(values.begin() + static_cast<std::ptrdiff_t>(whole), values.end(), rest.begin());
-    take_between(rest.data());
+    below += take_between(rest.data(), ranked, bracket, between);
     const double place = share * static_cast<double>(known - 1) - static_cast<double>(below);
     if (place >= 0 && std::floor(place) + 1 < static_cast<double>(between.size()))
       return value_at_place(between, place);

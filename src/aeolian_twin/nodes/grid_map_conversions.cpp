@@ -61,12 +61,9 @@ HeightMap::Layer to_layer(const std::string& name, const std_msgs::Float32MultiA
     throw Error(fmt::format("grid map: layer '{}' has {} x {} cells and {} values, must have {} x {} cells",
                             name, rows_dim.size, columns_dim.size,
                             array.data.size() - std::min(offset, array.data.size()), rows, columns));
+  if (!row_major && first_row == 0 && first_column == 0)
+    return {array.data.rbegin(), array.data.rend() - static_cast<std::ptrdiff_t>(offset)};
   HeightMap::Layer values(geometry.size());
-  if (!row_major && first_row == 0 && first_column == 0) {
-    std::reverse_copy(array.data.begin() + static_cast<std::ptrdiff_t>(offset), array.data.end(),
-                      values.begin());
-    return values;
-  }
   for (int column = 0; column < columns; ++column) {
     const int stored_column = (column + first_column) % columns;
     for (int row = 0; row < rows; ++row) {

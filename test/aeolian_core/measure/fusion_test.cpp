@@ -49,6 +49,7 @@ TEST(Fusion, StatesItsErrorRightly) {
       ++cells;
     }
   }
+  RecordProperty("chi2", std::to_string(chi2 / cells));
   EXPECT_NEAR(chi2 / cells, 1, 0.1);
   EXPECT_LT(std::abs(weighted_error / weight), 4 / std::sqrt(weight));
 }

@@ -93,6 +93,22 @@ TEST(CloudConversion, ReadsEveryFormat) {
               to_point_cloud(make_cloud({fields, is_double, big_endian, padding, padding, 3 * padding})));
 }
 
+TEST(CloudConversion, ReadsLongRowsOfEveryStep) {
+  for (const std::uint32_t padding : {0U, 4U, 20U}) {
+    Format format;
+    format.point_padding = padding;
+    format.row_padding = 8;
+    const PointCloud cloud = to_point_cloud(make_cloud(format, 1300, 3));
+    ASSERT_EQ(cloud.size(), 3900U);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto number = static_cast<double>(i);
+      EXPECT_EQ(cloud.x[i], static_cast<float>(number));
+      EXPECT_EQ(cloud.y[i], static_cast<float>(10 * number));
+      EXPECT_EQ(cloud.z[i], static_cast<float>(100 * number));
+    }
+  }
+}
+
 TEST(CloudConversion, DoublesKeepMillimetresInUtm) {
   Format format;
   format.is_double = true;
