@@ -42,8 +42,9 @@ std::vector<CellRange> DrawnCells::update(const DrawnLayers& layers, const Surfa
     geometry_ = layers.geometry;
     look_ = look;
     colours_.resize(geometry_.size());
-    lowest_of_tiles_.assign(static_cast<std::size_t>(tiles.tiles_x() * tiles.tiles_y()),
-                            std::numeric_limits<float>::infinity());
+    lowest_of_tiles_.assign(
+        static_cast<std::size_t>(tiles.tiles_x()) * static_cast<std::size_t>(tiles.tiles_y()),
+        std::numeric_limits<float>::infinity());
   }
   std::vector<CellRange> ranges = rectangles(tiles);
   for (CellRange& range : ranges) {
@@ -79,7 +80,9 @@ void DrawnCells::find_lowest(const HeightMap::Layer& heights, const TileMask& ch
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
         if (const float z = heights[geometry_.index(x, y)]; std::isfinite(z)) low = std::min(low, z);
-    lowest_of_tiles_[static_cast<std::size_t>(tile.y0 / side * changed.tiles_x() + tile.x0 / side)] = low;
+    const auto tx = static_cast<std::size_t>(tile.x0 / side);
+    const auto ty = static_cast<std::size_t>(tile.y0 / side);
+    lowest_of_tiles_[ty * static_cast<std::size_t>(changed.tiles_x()) + tx] = low;
   });
   const auto low = static_cast<double>(*std::min_element(lowest_of_tiles_.begin(), lowest_of_tiles_.end()));
   lowest_ = std::isfinite(low) ? low : 0;

@@ -58,7 +58,7 @@ TileMask DrawnMesh::thin(const DrawnLayers& layers, const TileMask& changed) {
     values_.resize(geometry_.size());
     square_of_cell_.clear();
   }
-  const TileMask tiles = anew ? TileMask(geometry_, true) : thinned(changed, full_, factor);
+  TileMask tiles = anew ? TileMask(geometry_, true) : thinned(changed, full_, factor);
   for (const CellRange& range : rectangles(tiles)) {
     aeolian::thin(full_, layers.heights, factor, range, heights_);
     aeolian::thin(full_, layers.values, factor, range, values_);
