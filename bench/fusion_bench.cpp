@@ -7,8 +7,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
 
+#include "copy_speed.hpp"
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -54,19 +54,6 @@ PointCloud random_points(std::size_t count, std::uint64_t number) {
   return cloud;
 }
 
-double seconds_to_copy_a_byte() {
-  std::vector<char> from(std::size_t{64} << 20, 1);
-  std::vector<char> to(from.size());
-  double best = 1;
-  for (int i = 0; i < 8; ++i) {
-    const auto start = Clock::now();
-    std::memcpy(to.data(), from.data(), from.size());
-    benchmark::ClobberMemory();
-    best = std::min(best, seconds_since(start) / static_cast<double>(from.size()));
-  }
-  return best;
-}
-
 void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
@@ -95,7 +82,7 @@ void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
   const double bytes = points * (12 + 2 * 8) + touched * (64 + 16);
   state.counters["ms_quickest"] = 1e3 * quickest;
   state.counters["points/s"] = benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["of_bandwidth"] = bytes * seconds_to_copy_a_byte() / quickest;
+  state.counters["of_bandwidth"] = bytes * aeolian::bench::seconds_to_copy_a_byte() / quickest;
 }
 
 void BM_DepthImageOverTheMap(benchmark::State& state) { fuse(state, {depth_image(2, 0), depth_image(2, 1)}); }

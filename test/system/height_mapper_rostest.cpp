@@ -5,18 +5,25 @@
 #include <filesystem>
 #include <limits>
 
+#include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include "ros_test.hpp"
+#include "running_program.hpp"
 #include <geometry_msgs/TransformStamped.h>
+#include <grid_map_msgs/GetGridMap.h>
 #include <grid_map_msgs/GridMap.h>
+#include <grid_map_msgs/ProcessFile.h>
+#include <grid_map_msgs/SetGridMap.h>
 #include <gtest/gtest.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
-#include <std_srvs/Trigger.h>
+#include <std_srvs/Empty.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/map_receiver.hpp"
 
 namespace aeolian {
 namespace {
@@ -79,11 +86,18 @@ class HeightMapperTest : public ::testing::Test {
     maps_.messages.clear();
   }
 
-  std_srvs::Trigger::Response call(const std::string& service) {
-    std_srvs::Trigger trigger;
+  static void call(const std::string& service) {
+    std_srvs::Empty empty;
     EXPECT_TRUE(ros::service::waitForService(service, 10000));
-    EXPECT_TRUE(ros::service::call(service, trigger));
-    return trigger.response;
+    EXPECT_TRUE(ros::service::call(service, empty));
+  }
+
+  /// Of save_map or load_map.
+  static bool process(const std::string& service, const std::string& file) {
+    grid_map_msgs::ProcessFile request;
+    request.request.file_path = file;
+    EXPECT_TRUE(ros::service::call(service, request));
+    return request.response.success;
   }
 
   bool is_newest(const ros::Time& stamp) const {
@@ -201,38 +215,219 @@ TEST_F(HeightMapperTest, ABagThatLoopsKeepsTheMapAndGoesOn) {
 }
 
 TEST_F(HeightMapperTest, SavesClearsAndLoads) {
-  const std::string file = (std::filesystem::temp_directory_path() / "height_mapper_rostest.tif").string();
-  nh_.setParam("height_mapper/map_file", file);
+  const TemporaryFolder folder;
   const HeightMap before = map_after(plane_cloud(ros::Time(1700002000)));
-  const auto saved = call("save_map");
-  EXPECT_TRUE(saved.success) << saved.message;
-  EXPECT_NE(saved.message.find(file), std::string::npos);
+  nh_.setParam("height_mapper/map_file", folder.file("map.tif"));
+  for (const std::string& file : {std::string(), folder.file("map.bag")}) {
+    EXPECT_TRUE(process("save_map", file));
+    maps_.messages.clear();
+    call("clear_map");
+    EXPECT_EQ(count_known(map_at(ros::Time(1700002000)).layer(layer::elevation)), 0U);
+    maps_.messages.clear();
+    EXPECT_TRUE(process("load_map", file));
+    EXPECT_EQ(map_at(ros::Time(1700002000)).layer(layer::elevation), before.layer(layer::elevation));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder.file("map.tif"))) << "~map_file is the file of requests without";
 
-  maps_.messages.clear();
-  EXPECT_TRUE(call("clear_map").success);
-  EXPECT_EQ(count_known(map_at(ros::Time(1700002000)).layer(layer::elevation)), 0U);
-
-  maps_.messages.clear();
-  EXPECT_TRUE(call("load_map").success);
-  EXPECT_EQ(map_at(ros::Time(1700002000)).layer(layer::elevation), before.layer(layer::elevation));
-  std::filesystem::remove(file);
-
-  const auto missing = call("load_map");
-  EXPECT_FALSE(missing.success);
-  EXPECT_NE(missing.message.find(file), std::string::npos) << missing.message;
-  nh_.setParam("height_mapper/map_file", "/nowhere/map.tif");
-  const auto unwritten = call("save_map");
-  EXPECT_FALSE(unwritten.success);
-  EXPECT_NE(unwritten.message.find("/nowhere"), std::string::npos) << unwritten.message;
+  EXPECT_FALSE(process("load_map", folder.file("missing.tif")));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", folder.file("missing.tif")));
+  EXPECT_FALSE(process("save_map", "/nowhere/map.tif"));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "/nowhere"));
+  EXPECT_FALSE(process("load_map", folder.write("text.bag", "no bag")));
+  EXPECT_EQ(count_known(map_after(plane_cloud(ros::Time(1700002001))).layer(layer::elevation)), 800U);
 }
 
-/// What a program prints on stderr, and its exit code.
-std::pair<std::string, int> run(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1 >/dev/null").c_str(), "r");
-  std::string text;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-  const int status = pclose(pipe);
-  return {text, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
+TEST_F(HeightMapperTest, GivesAPartOfTheMap) {
+  const HeightMap whole = map_after(plane_cloud(ros::Time(1700003000)));
+  grid_map_msgs::GetGridMap request;
+  request.request.position_x = 0.1;
+  request.request.position_y = 0.1;
+  request.request.length_x = 0.04;
+  request.request.length_y = 0.02;
+  request.request.layers = {layer::elevation};
+  ASSERT_TRUE(ros::service::call("get_submap", request));
+  const HeightMap part = to_height_map(request.response.map);
+  EXPECT_EQ(request.response.map.info.header.stamp, ros::Time(1700003000));
+  EXPECT_EQ(part.names(), std::vector<std::string>{layer::elevation});
+  ASSERT_EQ(part.geometry().nx(), 4);
+  ASSERT_EQ(part.geometry().ny(), 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; ++x)
+      EXPECT_EQ(part.layer(layer::elevation)[part.geometry().index(x, y)],
+                whole.layer(layer::elevation)[whole.geometry().index(8 + x, 9 + y)]);
+
+  request.request.position_x = 5;
+  EXPECT_FALSE(ros::service::call("get_submap", request));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "has no cell of the map"));
+  request.request.position_x = 0.1;
+  request.request.layers = {"age"};
+  EXPECT_FALSE(ros::service::call("get_submap", request));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "'age'"));
+  request.request.layers.clear();
+  request.request.frame_id = "nowhere";
+  EXPECT_FALSE(ros::service::call("get_submap", request));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "nowhere"));
+  request.request.frame_id = "scanner";  // at (0.2, 0.1), y turned over
+  request.request.position_x = -0.1;
+  request.request.position_y = 0;
+  ASSERT_TRUE(ros::service::call("get_submap", request));
+  EXPECT_EQ(to_height_map(request.response.map).geometry(), part.geometry());
+}
+
+TEST_F(HeightMapperTest, ReplacesMaskedCellsAndHoldsUpdates) {
+  map_after(plane_cloud(ros::Time(1700004000)));
+  maps_.messages.clear();
+  HeightMap patch(GridGeometry(0.1, 0.1, 0.01, 10, 5));
+  patch.add(layer::elevation, 0.5F);
+  patch.add("mask")[0] = 1;
+  grid_map_msgs::SetGridMap request;
+  std_msgs::Header header;
+  header.frame_id = "map";
+  request.request.map = to_message(patch, header);
+  ASSERT_TRUE(ros::service::call("masked_replace", request));
+  const HeightMap map = map_at(ros::Time(1700004000));
+  EXPECT_NEAR(map.layer(layer::elevation)[map.geometry().index(10, 10)], 0.5, 1e-5);
+  EXPECT_LT(map.layer(layer::elevation)[map.geometry().index(11, 10)], 0.1);
+  request.request.map.info.resolution = -1;
+  EXPECT_FALSE(ros::service::call("masked_replace", request));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "info.resolution is -1"));
+
+  call("disable_updates");
+  const std::size_t maps = maps_.messages.size();
+  points_.publish(plane_cloud(ros::Time(1700004001)));
+  EXPECT_TRUE(diagnostics_.is_well("height_mapper"));
+  ros::WallDuration(0.2).sleep();
+  ros::spinOnce();
+  EXPECT_EQ(maps_.messages.size(), maps);
+  call("enable_updates");
+  map_after(plane_cloud(ros::Time(1700004002)));
+}
+
+TEST_F(HeightMapperTest, ATransformThatContradictsTheMapIsTold) {
+  for (std::uint32_t i = 0; i < 3; ++i) map_after(plane_cloud(ros::Time(1700005000 + i)));
+  geometry_msgs::TransformStamped moved = scanner_pose("moved", ros::Time::now());
+  moved.transform.translation.z += 0.05;
+  tf_.sendTransform(moved);
+  points_.publish(plane_cloud(ros::Time(1700005003), "moved"));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "most contradict the map"));
+  const HeightMap map = map_after(plane_cloud(ros::Time(1700005004)));
+  EXPECT_NEAR(map.layer(layer::elevation)[map.geometry().index(20, 10)], plane(0.205, 0.105), sigma);
+}
+
+/// Two scanners of which the second stamps its clouds half a second late while it moves.
+TEST_F(HeightMapperTest, HearsSeveralSensorsEachWithItsLatency) {
+  nh_.setParam("rig/height_mapper/sensors/front/topic", "front/cloud");
+  nh_.setParam("rig/height_mapper/sensors/rail/latency", 0.5);
+  const RunningProgram rig("height_mapper", {"__ns:=rig", "_cell_size:=0.01", "_length_x:=0.4",
+                                             "_length_y:=0.2", "_diagnostic_period:=0.1"});
+  ros::Publisher front = nh_.advertise<sensor_msgs::PointCloud2>("rig/front/cloud", 10);
+  ros::Publisher rail = nh_.advertise<sensor_msgs::PointCloud2>("rig/rail/points", 10);
+  Listener<grid_map_msgs::GridMap> maps(nh_, "rig/height_map");
+  ASSERT_TRUE(wait_until(
+      [&] { return front.getNumSubscribers() > 0 && rail.getNumSubscribers() > 0 && maps.connected(); }));
+  EXPECT_TRUE(diagnostics_.warns("rig", "no cloud has arrived"));
+  const auto map_of = [&](const ros::Time& stamp) {
+    EXPECT_TRUE(wait_until(
+        [&] { return !maps.messages.empty() && maps.messages.back()->info.header.stamp == stamp; }));
+    return to_height_map(*maps.messages.back());
+  };
+  // The rail's scanner is at its place at t = 10 and 10 cm higher at t = 10.5.
+  tf2_ros::TransformBroadcaster moving;
+  const ros::Time t(1700006010);
+  const auto send_poses = [&] {
+    auto low = scanner_pose("on_rail", t - ros::Duration(1));
+    moving.sendTransform(low);
+    low.header.stamp = t;
+    moving.sendTransform(low);
+    auto high = scanner_pose("on_rail", t + ros::Duration(0.5));
+    high.transform.translation.z += 0.1;
+    moving.sendTransform(high);
+    high.header.stamp += ros::Duration(1);
+    moving.sendTransform(high);
+  };
+  front.publish(plane_cloud(t - ros::Duration(1)));
+  expect_plane(map_of(t - ros::Duration(1)));
+  ASSERT_TRUE(wait_until([&] {  // the first poses may go before the node listens
+    send_poses();
+    rail.publish(plane_cloud(t + ros::Duration(0.5), "on_rail"));
+    ros::WallDuration(0.05).sleep();
+    ros::spinOnce();
+    return maps.messages.back()->info.header.stamp == t;
+  }));
+  const HeightMap map = map_of(t);
+  const std::size_t i = map.geometry().index(20, 10);
+  EXPECT_NEAR(map.layer(layer::elevation)[i], plane(0.205, 0.105), 5 * sigma / 3);
+  EXPECT_LT(map.layer(layer::variance)[i], 0.7 * sigma * sigma / 9) << "both sensors count";
+}
+
+TEST_F(HeightMapperTest, AKilledNodeGoesOnWithItsMap) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments{"__ns:=saver",
+                                           "points:=/points",
+                                           "_cell_size:=0.01",
+                                           "_length_x:=0.4",
+                                           "_length_y:=0.2",
+                                           "_autosave_period:=0.2",
+                                           "_autosave_file:=" + folder.file("auto.bag")};
+  Listener<grid_map_msgs::GridMap> maps(nh_, "saver/height_map");
+  HeightMap before;
+  {
+    RunningProgram saver("height_mapper", arguments);
+    ASSERT_TRUE(wait_until([&] { return maps.connected(); }));
+    ASSERT_TRUE(wait_until([&] {
+      points_.publish(plane_cloud(ros::Time(1700007000)));
+      ros::WallDuration(0.05).sleep();
+      ros::spinOnce();
+      return !maps.messages.empty();
+    }));
+    ros::WallDuration(0.3).sleep();  // what was on its way
+    ros::spinOnce();
+    before = to_height_map(*maps.messages.back());
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder.file("auto.bag")); }));
+    ros::WallDuration(0.6).sleep();
+    saver.kill_now();
+  }
+  maps.messages.clear();
+  const RunningProgram again("height_mapper", arguments);
+  ASSERT_TRUE(wait_until([&] { return !maps.messages.empty(); })) << "a node started again has no map";
+  EXPECT_EQ(to_height_map(*maps.messages.back()).layer(layer::elevation), before.layer(layer::elevation));
+  EXPECT_EQ(maps.messages.back()->info.header.stamp, ros::Time(1700007000));
+}
+
+TEST_F(HeightMapperTest, PublishesOnlyWhatChanged) {
+  const RunningProgram node("height_mapper", {"__ns:=part", "points:=/points", "_cell_size:=0.01",
+                                              "_length_x:=1.28", "_length_y:=0.64", "_incremental:=true"});
+  Listener<grid_map_msgs::GridMap> whole(nh_, "part/height_map");
+  Listener<grid_map_msgs::GridMap> updates(nh_, "part/height_map_updates");
+  HeightMap map;
+  const MapReceiver receiver(
+      nh_, "part/height_map",
+      [&](const HeightMap& now, const std_msgs::Header&, const TileMask&) { map = now; },
+      [](const std::string& reason) { ADD_FAILURE() << reason; });
+  ASSERT_TRUE(wait_until([&] { return whole.connected() && updates.connected(); }));
+  ASSERT_TRUE(wait_until([&] {
+    points_.publish(plane_cloud(ros::Time(1700008000)));
+    ros::WallDuration(0.05).sleep();
+    ros::spinOnce();
+    return !updates.messages.empty() && !whole.messages.empty();
+  }));
+  const std::size_t wholes = whole.messages.size();
+  updates.messages.clear();
+  // One cell, 6 cm to the east and 1 cm to the south of the map's middle tiles' corner.
+  auto one = cloud_of({{0.305F, 0.005F, 0.95F}}, "scanner", ros::Time(1700008001));
+  points_.publish(one);
+  ASSERT_TRUE(wait_until([&] { return !updates.messages.empty(); }));
+  const HeightMap part = to_height_map(*updates.messages.back());
+  EXPECT_EQ(part.geometry().nx(), 32) << "the one tile that has the cell";
+  EXPECT_EQ(part.geometry().ny(), 32);
+  EXPECT_EQ(whole.messages.size(), wholes) << "the whole map goes to new listeners only";
+
+  Listener<grid_map_msgs::GridMap> late(nh_, "part/height_map");
+  ASSERT_TRUE(wait_until([&] { return !late.messages.empty(); }));
+  const HeightMap now = to_height_map(*late.messages.back());
+  EXPECT_EQ(now.geometry().nx(), 128);
+  ASSERT_TRUE(wait_until([&] { return map.names().size() == now.names().size(); }));
+  EXPECT_EQ(count_known(map.layer(layer::elevation)), count_known(now.layer(layer::elevation)));
 }
 
 TEST(Programs, RefuseABadParameterInOneLine) {
@@ -251,9 +446,9 @@ TEST(Programs, RefuseABadParameterInOneLine) {
        "surface_display: /bad/palette: 'grey' is not allowed, must be one of sand, diverging\n"},
   };
   for (const auto& [command, line] : cases) {
-    const auto [text, code] = run(std::string(AEOLIAN_BIN) + "/" + command + " __name:=bad");
-    EXPECT_EQ(code, 1) << command;
-    EXPECT_EQ(text, line);
+    const Outcome outcome = run_program(command + " __name:=bad");
+    EXPECT_EQ(outcome.code, 1) << command;
+    EXPECT_EQ(outcome.err, line);
     ros::param::del("/bad");
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include <Eigen/Geometry>
 #include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
@@ -70,26 +71,15 @@ Eigen::Vector3d in_map(const std::map<std::string, Link>& tree, std::string fram
 
 class MakeBag : public testing::Test {
  protected:
-  struct Outcome {
-    int status;
-    std::string errors;
-  };
-
-  Outcome run(const std::string& manifest, const std::string& bag) const {
-    const std::string errors = folder_.file("stderr");
-    const std::string command =
-        std::string(AEOLIAN_BIN) + "/make_bag '" + manifest + "' '" + bag + "' >/dev/null 2>'" + errors + "'";
-    const int status = std::system(command.c_str());
-    Outcome outcome{WEXITSTATUS(status), content_of(errors)};
-    fs::remove(errors);
-    return outcome;
+  static Outcome run(const std::string& manifest, const std::string& bag) {
+    return run_program("make_bag '" + manifest + "' '" + bag + "'");
   }
 
   /// Makes a bag of a manifest and opens it; expects the warnings.
   void make(const std::string& manifest, const std::string& warnings = "") {
     const Outcome outcome = run(folder_.write("manifest.yaml", manifest), folder_.file("out.bag"));
-    ASSERT_EQ(outcome.status, 0) << outcome.errors;
-    EXPECT_EQ(outcome.errors, warnings);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, warnings);
     bag_.open(folder_.file("out.bag"));
   }
 
@@ -98,11 +88,11 @@ class MakeBag : public testing::Test {
     const std::string bag = folder_.write("out.bag", "old");
     const std::size_t files = folder_.count_files() + (fs::exists(folder_.file("manifest.yaml")) ? 0 : 1);
     const Outcome outcome = run(folder_.write("manifest.yaml", manifest), bag);
-    EXPECT_EQ(outcome.status, 1) << manifest;
-    EXPECT_EQ(outcome.errors.rfind("make_bag: ", 0), 0U) << outcome.errors;
-    EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+    EXPECT_EQ(outcome.code, 1) << manifest;
+    EXPECT_EQ(outcome.err.rfind("make_bag: ", 0), 0U) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
     for (const std::string& part : parts)
-      EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors << "must contain " << part;
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err << "must contain " << part;
     EXPECT_EQ(content_of(bag), "old");
     EXPECT_EQ(folder_.count_files(), files) << "something is left behind";
   }
@@ -271,9 +261,9 @@ TEST_F(MakeBag, TheExampleManifestWorks) {
 
 TEST_F(MakeBag, RefusesAManifestThatIsNone) {
   const Outcome missing = run(folder_.file("none.yaml"), folder_.file("out.bag"));
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_EQ(missing.errors, "make_bag: " + folder_.file("none.yaml") + ": cannot be read\n");
-  EXPECT_EQ(run(folder_.path(), folder_.file("out.bag")).status, 1);
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_EQ(missing.err, "make_bag: " + folder_.file("none.yaml") + ": cannot be read\n");
+  EXPECT_EQ(run(folder_.path(), folder_.file("out.bag")).code, 1);
   expect_refusal("clouds: [{file: a.xyz\n", {"manifest.yaml:"});
   expect_refusal("just words\n", {"manifest.yaml:1", "key: value"});
   expect_refusal("frame_id: map\n", {"neither clouds nor photos nor wind"});
@@ -373,15 +363,15 @@ TEST_F(MakeBag, NeedsAPlaceForTheBag) {
   for (const std::string& bag :
        {manifest + "/out.bag", folder_.file("none/out.bag"), std::string("/proc/out.bag")}) {
     const Outcome outcome = run(manifest, bag);
-    EXPECT_EQ(outcome.status, 1);
-    EXPECT_EQ(outcome.errors.rfind("make_bag: cannot write '" + bag + "': ", 0), 0U) << outcome.errors;
-    EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.err.rfind("make_bag: cannot write '" + bag + "': ", 0), 0U) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
   }
 }
 
 TEST_F(MakeBag, SaysHowItIsCalled) {
-  EXPECT_EQ(std::system((std::string(AEOLIAN_BIN) + "/make_bag --help >/dev/null").c_str()), 0);
-  EXPECT_EQ(WEXITSTATUS(std::system((std::string(AEOLIAN_BIN) + "/make_bag >/dev/null 2>&1").c_str())), 1);
+  EXPECT_EQ(run_program("make_bag --help").code, 0);
+  EXPECT_EQ(run_program("make_bag").code, 1);
 }
 
 class MakeBagOfRealScans : public MakeBag {

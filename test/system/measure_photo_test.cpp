@@ -8,6 +8,7 @@
 #include "../exif.hpp"
 #include "../rendering/shadow_scene.hpp"
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -61,12 +62,6 @@ const std::string strip =
 const std::string light = "light: {elevation_deg: 34.37747, azimuth_deg: 5.729578}\n";
 const std::string rest = "grain_diameter_mm: 0.3\nwind_px: [1, 0]\n";
 
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
-
 class MeasurePhoto : public testing::Test {
  protected:
   /// The photos are rendered once: each takes a second.
@@ -90,12 +85,7 @@ class MeasurePhoto : public testing::Test {
 
   void setup(const std::string& text) const { folder_.write("setup.yaml", text); }
   Outcome run(const std::string& arguments) const {
-    const TemporaryFolder console;
-    const std::string command = "cd " + folder_.path() + " && " AEOLIAN_BIN "/measure_photo " + arguments +
-                                " > " + console.file("out") + " 2> " + console.file("err");
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(console.file("out")),
-            content_of(console.file("err"))};
+    return run_program("measure_photo " + arguments, folder_.path());
   }
   /// Expects exit code 1, this one line, and no file more than before.
   void expect_refusal(const std::string& arguments, const std::string& line) const {

@@ -13,7 +13,7 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
-#include <std_srvs/Trigger.h>
+#include <std_srvs/Empty.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <unistd.h>
@@ -167,7 +167,7 @@ TEST_F(RealScans, DepthCamera) {
     EXPECT_EQ(agreement.known_cells, agreement.cells_with_points) << i;
     EXPECT_GT(agreement.known_cells, 10000U) << i;
     EXPECT_LT(agreement.median_of_differences, 0.002) << i;
-    std_srvs::Trigger clear;
+    std_srvs::Empty clear;
     EXPECT_TRUE(ros::service::call("camera/clear_map", clear));
   }
 }

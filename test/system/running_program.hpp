@@ -23,6 +23,7 @@ class RunningProgram {
     _exit(127);
   }
   ~RunningProgram() {
+    if (killed_) return;
     EXPECT_TRUE(lives());
     kill(pid_, SIGINT);
     waitpid(pid_, nullptr, 0);
@@ -30,10 +31,17 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
+  /// Without a chance to tidy up.
+  void kill_now() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    killed_ = true;
+  }
   bool lives() const { return waitpid(pid_, nullptr, WNOHANG) == 0; }
 
  private:
   pid_t pid_;
+  bool killed_ = false;
 };
 
 }  // namespace aeolian

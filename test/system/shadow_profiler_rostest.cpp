@@ -9,6 +9,7 @@
 
 #include "../rendering/shadow_scene.hpp"
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include "ros_test.hpp"
 #include "running_program.hpp"
 #include <aeolian_msgs/Profile.h>
@@ -334,13 +335,10 @@ TEST_F(ShadowProfilerTest, MarksOnAFaceThatLeansAreRefused) {
 
 TEST_F(ShadowProfilerTest, StopsAtOnceForABadSetup) {
   const auto expect = [&](const std::string& arguments, const std::string& reason) {
-    const std::string log = folder_.file("stderr.txt");
-    const int status =
-        std::system((AEOLIAN_BIN "/shadow_profiler __name:=refused " + arguments + " 2> " + log).c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 1);
-    const std::string text = content_of(log);
-    EXPECT_NE(text.find(reason), std::string::npos) << text;
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    const Outcome outcome = run_program("shadow_profiler __name:=refused " + arguments);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   };
   expect("", "/refused/setup: '' is not allowed");
   expect("_setup:=/no/such.yaml", "/no/such.yaml");

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "program_outcome.hpp"
 #include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -31,11 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string topics[] = {"/tf_static", "/points", "/wind", "/image", "/camera_info"};
-
-struct Outcome {
-  int code;
-  std::string message;
-};
 
 /// The shipped day, made short and small.
 YAML::Node small_day() {
@@ -72,15 +68,7 @@ class SimulateField : public testing::Test {
     std::ofstream(config) << day;
     return run("--config " + config.string() + " --out " + (folder_ / out).string() + " " + flags);
   }
-  static Outcome run(const std::string& arguments) {
-    const fs::path log = folder_ / "stderr.txt";
-    const int status =
-        std::system((AEOLIAN_BIN "/simulate_field " + arguments + " 2> " + log.string()).c_str());
-    std::ifstream file(log);
-    std::stringstream text;
-    text << file.rdbuf();
-    return {WEXITSTATUS(status), text.str()};
-  }
+  static Outcome run(const std::string& arguments) { return run_program("simulate_field " + arguments); }
   static std::string bag_path(const std::string& day) { return (folder_ / day / "field_day.bag").string(); }
 
   /// The bytes of all messages of a topic, in the bag's order.
@@ -110,8 +98,8 @@ class SimulateField : public testing::Test {
                              const std::string& out = "refused") {
     const Outcome outcome = simulate(day, out);
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_NE(outcome.message.find(expected), std::string::npos) << outcome.message;
-    EXPECT_EQ(std::count(outcome.message.begin(), outcome.message.end(), '\n'), 1) << outcome.message;
+    EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_FALSE(fs::exists(folder_ / out / "field_day.bag"));
   }
 
@@ -264,12 +252,12 @@ TEST_F(SimulateField, RefusesFilesThatCannotBe) {
   Outcome outcome =
       run("--config " + (folder_ / "absent.yaml").string() + " --out " + (folder_ / "x").string());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.message.find("absent.yaml"), std::string::npos);
+  EXPECT_NE(outcome.err.find("absent.yaml"), std::string::npos);
 
   std::ofstream(folder_ / "broken.yaml") << "wind: [1, 2";
   outcome = run("--config " + (folder_ / "broken.yaml").string() + " --out " + (folder_ / "x").string());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.message.find("broken.yaml"), std::string::npos);
+  EXPECT_NE(outcome.err.find("broken.yaml"), std::string::npos);
 
   std::ofstream(folder_ / "file") << "not a directory";
   expect_refused(small_day(), "file", "file/out");

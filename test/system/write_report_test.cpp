@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include <aeolian_msgs/Comparison.h>
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
@@ -96,21 +97,9 @@ aeolian_msgs::Comparison comparison(double issued, double lead) {
   return message;
 }
 
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
-
 class WriteReport : public testing::Test {
  protected:
-  Outcome run(const std::string& arguments) const {
-    const std::string out = folder_.file("stdout");
-    const std::string err = folder_.file("stderr");
-    const std::string command = AEOLIAN_BIN "/write_report " + arguments + " > " + out + " 2> " + err;
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
-  }
+  static Outcome run(const std::string& arguments) { return run_program("write_report " + arguments); }
   /// Expects exit code 1 and one line that holds `part`, and no page.
   void expect_refusal(const std::string& bag, const std::string& part) const {
     const Outcome outcome = run(bag + " --out " + folder_.file("report"));

@@ -36,6 +36,7 @@ inline std::int32_t steps(double metres) {
 class Sample {
  public:
   Sample() = default;
+  explicit Sample(std::uint64_t bits) : bits_(bits) {}
   Sample(std::uint32_t cell, std::int32_t height, std::uint32_t weight)
       : bits_(std::uint64_t{cell} << 54 | std::uint64_t{static_cast<std::uint32_t>(height) ^ flip} << 22 |
               weight) {}
@@ -45,11 +46,12 @@ class Sample {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits_ >> 22) ^ flip);
   }
   std::uint32_t weight() const { return static_cast<std::uint32_t>(bits_) & ((1U << 22) - 1); }
+  std::uint64_t bits() const { return bits_; }
   friend bool operator<(Sample a, Sample b) { return a.bits_ < b.bits_; }
 
  private:
   static constexpr std::uint32_t flip = 0x80000000U;  // signed order as unsigned order
-  std::uint64_t bits_ = 0;
+  std::uint64_t bits_;
 };
 
 }  // namespace aeolian

@@ -1,6 +1,7 @@
 #include "aeolian_core/measure/fusion.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <tbb/blocked_range.h>
@@ -29,9 +30,7 @@ void require(bool allowed, const char* name, double value, const char* what) {
 
 void check(const FusionParameters& p) {
   const auto finite = [](double v) { return std::isfinite(v); };
-  require(p.min_range >= 0 && finite(p.min_range), "min_range", p.min_range, "zero or positive");
-  require(p.max_range > p.min_range, "max_range", p.max_range, "greater than min_range");
-  p.sensor.require_valid(p.min_range, p.max_range);
+  p.sensor.require_valid();
   require(p.change.rate_sigma >= 0 && finite(p.change.rate_sigma), "rate_sigma", p.change.rate_sigma,
           "zero or positive");
   require(p.change.rate_time > 0 && finite(p.change.rate_time), "rate_time", p.change.rate_time, "positive");
@@ -41,7 +40,7 @@ void check(const FusionParameters& p) {
 
 /// What a reading at the least range says of a height, without the ray's slant [m^2].
 double reference_variance(const FusionParameters& p) {
-  const double sigma = p.sensor.along_ray(p.min_range, 1);
+  const double sigma = p.sensor.along_ray(p.sensor.min_range, 1);
   return sigma * sigma;
 }
 
@@ -59,13 +58,48 @@ PointLocator locator(const PointCloud& cloud, const Eigen::Isometry3d& pose, con
   l.nx = g.nx();
   l.ny = g.ny();
   l.tiles_x = (g.nx() + TileMask::tile_cells - 1) / TileMask::tile_cells;
-  l.nearest = p.min_range * p.min_range;
-  l.farthest = p.max_range * p.max_range;
+  l.nearest = sensor.min_range * sensor.min_range;
+  l.farthest = sensor.max_range * sensor.max_range;
   l.noise = sensor;
   l.reference_variance = reference_variance(p);
-  l.georeferenced = Eigen::Vector3d(cloud.origin_x, cloud.origin_y, cloud.origin_z).norm() > p.max_range;
+  l.georeferenced = Eigen::Vector3d(cloud.origin_x, cloud.origin_y, cloud.origin_z).norm() > sensor.max_range;
   return l;
 }
+
+/// The cells of a map that others made: what it leaves out is filled in.
+class KnownCells {
+ public:
+  KnownCells(const HeightMap& map, double variance, double rate_variance)
+      : unknown_(map.geometry().size(), HeightMap::unknown),
+        elevation_(map.layer(layer::elevation)),
+        variance_(given(map, layer::variance)),
+        rate_(given(map, layer::rate)),
+        rate_variance_(given(map, layer::rate_variance)),
+        fallback_{0, variance, 0, rate_variance} {}
+
+  std::optional<CellEstimate> at(std::size_t i) const {
+    const auto height = static_cast<double>(elevation_[i]);
+    if (!(std::abs(height) <= fixed::greatest_height)) return std::nullopt;
+    const auto positive_or = [](float value, double fallback) {
+      return value > 0 && std::isfinite(value) ? static_cast<double>(value) : fallback;
+    };
+    return CellEstimate{height, positive_or(variance_[i], fallback_.variance),
+                        std::isfinite(rate_[i]) ? static_cast<double>(rate_[i]) : 0,
+                        positive_or(rate_variance_[i], fallback_.rate_variance)};
+  }
+
+ private:
+  const HeightMap::Layer& given(const HeightMap& map, const std::string& name) const {
+    return map.has(name) ? map.layer(name) : unknown_;
+  }
+
+  HeightMap::Layer unknown_;
+  const HeightMap::Layer& elevation_;
+  const HeightMap::Layer& variance_;
+  const HeightMap::Layer& rate_;
+  const HeightMap::Layer& rate_variance_;
+  CellEstimate fallback_;
+};
 
 }  // namespace
 
@@ -77,6 +111,7 @@ struct HeightFusion::Workers {
     PointCounts counts;
     HeightSteps steps;
     std::size_t outlier_cells = 0;
+    std::size_t outliers = 0;
   };
 
   explicit Workers(const HeightChange& change) : of_threads([change] { return Worker(change); }) {}
@@ -84,9 +119,10 @@ struct HeightFusion::Workers {
 
   void reset() {
     for (Worker& worker : of_threads) {
-      worker.buckets.clear();
+      worker.buckets.reset(0, 0);
       worker.counts = {};
       worker.outlier_cells = 0;
+      worker.outliers = 0;
     }
   }
 
@@ -95,7 +131,7 @@ struct HeightFusion::Workers {
         tbb::blocked_range<std::size_t>(0, cloud.size(), points_at_once),
         [&](const tbb::blocked_range<std::size_t>& range) {
           Worker& worker = of_threads.local();
-          worker.buckets.reserve(tiles);
+          if (worker.buckets.empty()) worker.buckets.reset(tiles, cloud.size());
           std::int32_t tile[PointLocator::batch];
           Sample sample[PointLocator::batch];
           for (std::size_t i = range.begin(); i < range.end(); i += PointLocator::batch) {
@@ -113,6 +149,7 @@ HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters&
   check(parameters);
   rules_.gate = {parameters.gate_sigma * parameters.gate_sigma, repose_relief * geometry.cell(),
                  fixed::reference_weight * reference_variance(parameters)};
+  rules_.scale = PointScale(rules_.gate.weight_scale);
   rules_.robust = parameters.robust;
   rules_.patience = parameters.gate_patience;
   rules_.first_rate_variance = parameters.change.rate_sigma * parameters.change.rate_sigma;
@@ -124,38 +161,8 @@ HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters&
 HeightFusion::HeightFusion(const HeightMap& map, const FusionParameters& parameters, double stamp)
     : HeightFusion(map.geometry(), parameters) {
   require(std::isfinite(stamp), "stamp", stamp, "finite");
-  const HeightMap::Layer none(map.geometry().size(), HeightMap::unknown);
-  const auto given = [&](const std::string& name) -> const HeightMap::Layer& {
-    return map.has(name) ? map.layer(name) : none;
-  };
-  const HeightMap::Layer& elevation = map.layer(layer::elevation);
-  const HeightMap::Layer& variance = given(layer::variance);
-  const HeightMap::Layer& rate = given(layer::rate);
-  const HeightMap::Layer& rate_variance = given(layer::rate_variance);
-  const auto or_else = [](float value, double fallback) {
-    return std::isfinite(value) ? static_cast<double>(value) : fallback;
-  };
-  const double point = reference_variance(parameters);
-  for (std::size_t i = 0; i < elevation.size(); ++i) {
-    if (!std::isfinite(elevation[i])) continue;
-    const CellIndex at = map.geometry().cell_at(i);
-    const CellEstimate known{static_cast<double>(elevation[i]),
-                             variance[i] >= 0 ? or_else(variance[i], point) : point, or_else(rate[i], 0),
-                             rate_variance[i] >= 0 ? or_else(rate_variance[i], rules_.first_rate_variance)
-                                                   : rules_.first_rate_variance};
-    constexpr int side = FusionTile::side;
-    const auto tiles_x = static_cast<std::size_t>((map.geometry().nx() + side - 1) / side);
-    auto& tile =
-        tiles_[static_cast<std::size_t>(at.y / side) * tiles_x + static_cast<std::size_t>(at.x / side)];
-    if (!tile) tile = std::make_unique<FusionTile>();
-    tile->begin_cell(static_cast<std::size_t>(at.y % side * side + at.x % side), known);
-    map_.layer(layer::elevation)[i] = elevation[i];
-    map_.layer(layer::variance)[i] = static_cast<float>(known.variance);
-    map_.layer(layer::rate)[i] = static_cast<float>(known.rate);
-    map_.layer(layer::rate_variance)[i] = static_cast<float>(known.rate_variance);
-  }
   epoch_ = last_stamp_ = stamp;
-  scan_ = 1;
+  replace(map, map.layer(layer::elevation));
 }
 
 HeightFusion::~HeightFusion() = default;
@@ -174,7 +181,7 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
                 " z, must be as many of each");
   require(std::isfinite(stamp), "stamp", stamp, "finite");
   if (!pose.matrix().allFinite()) throw Error("fusion: the pose of the sensor is not finite");
-  sensor.require_valid(parameters_.min_range, parameters_.max_range);
+  sensor.require_valid();
   set_clock(stamp);
 
   FusionResult result;
@@ -186,6 +193,7 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
   for (const Workers::Worker& worker : workers_->of_threads) {
     counts.add(worker.counts);
     result.outlier_cells += worker.outlier_cells;
+    result.outliers += worker.outliers;
   }
   result.used = counts.used;
   result.not_finite = counts.not_finite;
@@ -210,15 +218,20 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
           FusionTile& tile = *tiles_[at];
           std::size_t agreeing = 0;
+          const auto for_each_block = [&](auto&& visit) {
+            for (const Workers::Worker& worker : workers_->of_threads) worker.buckets.for_each(at, visit);
+          };
+          FusionTile::Rows rows = 0;
+          for_each_block(
+              [&](const Sample* samples, std::size_t count) { rows |= FusionTile::rows_of(samples, count); });
           const TileLayers layers = layers_of_tile(at, result.changed);
-          FusionTile::prefetch(layers);
-          tile.open(scan_, newest_, rules_, own.steps);
-          for (const Workers::Worker& worker : workers_->of_threads)
-            worker.buckets.for_each(at, [&](const Sample* samples, std::size_t count) {
-              agreeing += tile.add(samples, count, rules_);
-            });
-          const FusionTile::Result of_tile = tile.publish(rules_, layers);
+          tile.open(scan_, newest_, rows, rules_, own.steps, layers);
+          for_each_block([&](const Sample* samples, std::size_t count) {
+            agreeing += tile.add(samples, count, rules_);
+          });
+          const FusionTile::Result of_tile = tile.publish(rows, rules_, layers);
           own.outlier_cells += of_tile.outlier_cells;
+          own.outliers += of_tile.outliers;
           if (agreeing + of_tile.new_cells > 0) {
             const int tiles_x = result.changed.tiles_x();
             result.changed.set_tile(static_cast<int>(at) % tiles_x, static_cast<int>(at) / tiles_x);
@@ -233,12 +246,10 @@ TileLayers HeightFusion::layers_of_tile(std::size_t tile, const TileMask& tiling
   const CellRange range = tiling.range(at % tiling.tiles_x(), at / tiling.tiles_x());
   const std::size_t first = g.index(range.x0, range.y0);
   const auto data = [&](const std::string& name) { return map_.layer(name).data() + first; };
-  return {data(layer::elevation),
-          data(layer::variance),
-          data(layer::rate),
-          data(layer::rate_variance),
-          {static_cast<std::size_t>(range.y1 - range.y0), static_cast<std::size_t>(range.x1 - range.x0),
-           static_cast<std::size_t>(g.nx())}};
+  return {{data(layer::elevation), data(layer::variance), data(layer::rate), data(layer::rate_variance)},
+          static_cast<std::size_t>(range.y1 - range.y0),
+          static_cast<std::size_t>(range.x1 - range.x0),
+          static_cast<std::size_t>(g.nx())};
 }
 
 void HeightFusion::set_clock(double stamp) {
@@ -259,6 +270,42 @@ void HeightFusion::set_clock(double stamp) {
   newest_ = std::max(newest_, static_cast<std::uint32_t>(std::llround(1e3 * (stamp - epoch_))));
   last_stamp_ = stamp;
   ++scan_;
+}
+
+TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& mask) {
+  const GridGeometry& g = map_.geometry();
+  if (known.geometry() != g || mask.size() != g.size())
+    throw Error("fusion: cells of another grid cannot replace those of the map");
+  const KnownCells cells(known, reference_variance(parameters_), rules_.first_rate_variance);
+  HeightSteps steps(parameters_.change);
+  TileMask changed(g);
+  ++scan_;  // what came before is final
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (std::isnan(mask[i])) continue;
+    const CellIndex at = g.cell_at(i);
+    constexpr auto side = static_cast<int>(FusionTile::side);
+    const auto tile_at = static_cast<std::size_t>(at.y / side * changed.tiles_x() + at.x / side);
+    auto& tile = tiles_[tile_at];
+    const std::optional<CellEstimate> cell = cells.at(i);
+    if (!tile && !cell) continue;
+    if (!tile) tile = std::make_unique<FusionTile>();
+    tile->open(scan_, newest_, ~FusionTile::Rows{0}, rules_, steps, layers_of_tile(tile_at, changed));
+    const auto in_tile = static_cast<std::size_t>(at.y % side * side + at.x % side);
+    if (cell)
+      tile->begin_cell(in_tile, *cell);
+    else
+      tile->forget_cell(in_tile);
+    const auto write = [&](const std::string& name, double value) {
+      map_.layer(name)[i] = cell ? static_cast<float>(value) : HeightMap::unknown;
+    };
+    const CellEstimate shown = cell.value_or(CellEstimate());
+    write(layer::elevation, shown.height);
+    write(layer::variance, shown.variance);
+    write(layer::rate, shown.rate);
+    write(layer::rate_variance, shown.rate_variance);
+    changed.activate(at.x, at.y);
+  }
+  return changed;
 }
 
 HeightMap::Layer HeightFusion::counts() const {

@@ -31,8 +31,6 @@ struct FusionParameters {
   double gate_sigma = 4;
   /// ... unless so many scans in a row disagree in the same way: with the next the cell begins anew.
   int gate_patience = 2;
-  double min_range = 0.0;  ///< points nearer to the sensor are ignored [m]
-  double max_range = 1e4;  ///< points farther away are ignored [m]
 };
 
 /// What one cloud did to the map.
@@ -40,9 +38,10 @@ struct FusionResult {
   TileMask changed;      ///< tiles in which a cell got a new value
   std::size_t used = 0;  ///< points that fell into the map
   std::size_t not_finite = 0;
-  std::size_t out_of_range = 0;   ///< nearer than min_range, farther than max_range or absurdly high
+  std::size_t out_of_range = 0;   ///< nearer or farther than the sensor can see or absurdly high
   std::size_t outside = 0;        ///< beside the map
   std::size_t outlier_cells = 0;  ///< cells whose points were refused by the gate
+  std::size_t outliers = 0;       ///< points of these cells that were refused
 };
 
 /// The live height map. Each cell tracks height and rate of change of the bed (HeightChange) and, as long as
@@ -53,8 +52,9 @@ struct FusionResult {
 /// which order its points come and how many threads (oneTBB's) work on it. A cloud that is late by less than
 /// ten seconds joins the map at the time that each cell has reached.
 ///
-/// A cloud whose origin lies beyond max_range is georeferenced: its points have been seen from many places,
-/// so the range limits do not apply to it and its heights have the standard deviation range_sigma.
+/// A cloud whose origin lies beyond the sensor's max_range is georeferenced: its points have been seen from
+/// many places, so the range limits do not apply to it and its heights have the standard deviation
+/// range_sigma.
 ///
 /// Layers: elevation [m], variance [m^2], rate [m/s], rate_variance [m^2/s^2]. Heights from -16383 to 16383
 /// m, in steps of 7.6 um (fixed_point.hpp).
@@ -67,7 +67,8 @@ class HeightFusion {
   /// Throws Error naming a parameter that is not positive where it must be.
   HeightFusion(const GridGeometry& geometry, const FusionParameters& parameters);
   /// Continues a known map (elevation, optional variance, rate and rate_variance); `stamp` [s] is the time it
-  /// holds for. A known cell without variance is taken to be as good as one point of the sensor.
+  /// holds for. A known cell without variance is taken to be as good as one point of the sensor; a height
+  /// that cannot be (not finite, out of the range below) is unknown.
   HeightFusion(const HeightMap& map, const FusionParameters& parameters, double stamp);
   ~HeightFusion();
   HeightFusion(HeightFusion&&) noexcept;
@@ -80,6 +81,11 @@ class HeightFusion {
   /// The same for a cloud of another sensor than the parameters name.
   FusionResult add(const PointCloud& cloud, const Eigen::Isometry3d& pose, double stamp,
                    const SensorNoise& sensor);
+
+  /// Replaces the cells of the map where `mask` is not NaN by those of `known`, a map of the same grid with
+  /// the layers that the constructor takes; a cell without elevation there is forgotten. They hold from now
+  /// on. Returns the tiles that have such cells. Throws Error for another grid.
+  TileMask replace(const HeightMap& known, const HeightMap::Layer& mask);
 
   const HeightMap& map() const { return map_; }
   /// How many points each cell rests on; unknown for unknown cells.

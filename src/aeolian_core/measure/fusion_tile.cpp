@@ -38,26 +38,54 @@ double variance_of(const SurfaceSum& sum, const FusionRules& rules) {
   return rules.gate.weight_scale / sum.weight;
 }
 
-}  // namespace
-
-void FusionTile::prefetch(const TileLayers& layers) {
-  constexpr std::size_t floats_per_line = 16;
-  for (float* const layer : {layers.elevation, layers.variance, layers.rate, layers.rate_variance})
-    for (std::size_t row = 0; row < layers.window.rows; ++row)
-      for (std::size_t column = 0; column < layers.window.columns; column += floats_per_line)
-        __builtin_prefetch(layer + row * layers.window.stride + column, 1);
+void prefetch(const void* memory, std::size_t bytes) {
+  constexpr std::size_t line = 64;
+  for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(memory) + i, 1);
 }
 
-void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, HeightSteps& steps) {
-  if (scan == scan_) return;
-  take_set_aside(rules);
-  judge_motion(
-      close_scan(filter_, still_, static_cast<float>(rules.gate.weight_scale), rules.known_rate_variance));
-  if (time > time_) {
-    predict(filter_, steps.after(time - time_));
+void prefetch(const RowLayers& row, std::size_t columns) {
+  for (float* const layer : {row.elevation, row.variance, row.rate, row.rate_variance})
+    prefetch(layer, columns * sizeof(float));
+}
+
+/// Calls `visit(row)` for each row of a set.
+template <class Visit>
+void for_each_row(FusionTile::Rows rows, Visit&& visit) {
+  for (; rows != 0; rows &= rows - 1) visit(static_cast<std::size_t>(__builtin_ctz(rows)));
+}
+
+}  // namespace
+
+FusionTile::Rows FusionTile::rows_of(const Sample* samples, std::size_t count) {
+  Rows rows = 0;
+  for (std::size_t i = 0; i < count; ++i) rows |= Rows{1} << (samples[i].cell() / side);
+  return rows;
+}
+
+void FusionTile::open(std::uint32_t scan, std::uint32_t time, Rows rows, const FusionRules& rules,
+                      HeightSteps& steps, const TileLayers& layers) {
+  if (scan != scan_) {
+    take_set_aside(rules);
+    TileMotion motion;
+    for_each_row(open_, [&](std::size_t y) {
+      prefetch(&rows_[y] + 1, sizeof(FilterRow));
+      if (y < layers.rows) prefetch(layers.row(y), layers.columns);
+      const bool goes_on = (rows >> y & 1U) != 0;
+      const HeightStep step = goes_on ? steps.after(time - row_time_[y]) : HeightStep();
+      motion.add(close_scan(rows_[y], still_, rules.scale, rules.known_rate_variance, step));
+      if (goes_on) row_time_[y] = time;
+    });
+    judge_motion(motion);
+    open_ &= rows;
+    scan_ = scan;
     time_ = time;
   }
-  scan_ = scan;
+  for_each_row(rows & ~open_, [&](std::size_t y) {
+    const bool restart_still = still_ && row_time_[y] < still_since_;
+    predict(rows_[y], steps.after(time_ - row_time_[y]), restart_still);
+    row_time_[y] = time_;
+  });
+  open_ |= rows;
 }
 
 std::size_t FusionTile::add(const Sample* samples, std::size_t count, const FusionRules& rules) {
@@ -67,16 +95,17 @@ std::size_t FusionTile::add(const Sample* samples, std::size_t count, const Fusi
   const double squared_relief = rules.gate.relief * rules.gate.relief;
   for (std::size_t i = 0; i < count; ++i) {
     const Sample sample = samples[i];
-    const std::uint32_t at = sample.cell();
-    const auto steps = static_cast<double>(std::int64_t{sample.height()} - filter_.height[at]);
-    const auto variance = static_cast<double>(filter_.height_variance[at]);
+    FilterRow& row = rows_[sample.cell() / side];
+    const std::size_t at = sample.cell() % side;
+    const auto steps = static_cast<double>(std::int64_t{sample.height()} - row.height[at]);
+    const auto variance = static_cast<double>(row.height_variance[at]);
     const double distance = fixed::step * steps;
     const double own = squared_gate * variance + squared_relief;
     const bool agrees = !rules.robust || (distance * distance - own) * sample.weight() <= gate_scale;
     if (agrees && variance > 0) {
-      filter_.weight[at] += sample.weight();
-      filter_.moment[at] += sample.weight() * steps;
-      ++count_[at];
+      row.weight[at] += sample.weight();
+      row.moment[at] += sample.weight() * steps;
+      ++row.count[at];
     } else {
       set_aside_.push_back(sample);
     }
@@ -90,7 +119,9 @@ void FusionTile::judge_motion(const TileMotion& motion) {
   const double rate = scale * static_cast<double>(motion.rate);
   const double drift = scale * static_cast<double>(motion.drift);
   const double scatter = 1 / std::sqrt(static_cast<double>(motion.cells));
+  const bool was_still = still_;
   still_ = still_ ? !looks_moving(rate, drift, scatter) : looks_still(rate, scatter);
+  if (still_ && !was_still) still_since_ = time_;
 }
 
 int FusionTile::refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const {
@@ -107,9 +138,9 @@ int FusionTile::refusals_in_row(std::size_t cell, const SurfaceSum& sum, const F
 FusionTile::Verdict FusionTile::judge(std::size_t cell, const SurfaceSum& sum,
                                       const FusionRules& rules) const {
   if (!known(cell)) return Verdict::begins;
-  if (filter_.weight[cell] >= sum.weight) return Verdict::agrees;
-  const double drop = fixed::metres(filter_.height[cell]) - sum.height();
-  const bool under_a_grain = drop > 0 && drop < highest_flight && sum.count >= count_[cell];
+  if (row(cell).weight[cell % side] >= sum.weight) return Verdict::agrees;
+  const double drop = fixed::metres(row(cell).height[cell % side]) - sum.height();
+  const bool under_a_grain = drop > 0 && drop < highest_flight && sum.count >= row(cell).count[cell % side];
   const bool persists = refusals_in_row(cell, sum, rules) > rules.patience;
   return persists || under_a_grain ? Verdict::begins : Verdict::refused;
 }
@@ -120,7 +151,7 @@ void FusionTile::take_set_aside(const FusionRules& rules) {
     const Verdict verdict = judge(at, sum, rules);
     if (verdict == Verdict::begins) {
       begin_cell(at, {sum.height(), variance_of(sum, rules), 0, rules.first_rate_variance});
-      count_[at] = sum.count;
+      row(at).count[at % side] = sum.count;
     } else if (verdict == Verdict::refused) {
       refusals_[at] = static_cast<std::uint8_t>(refusals_in_row(at, sum, rules));
       rival_[at] = fixed::steps(sum.height());
@@ -140,7 +171,7 @@ void FusionTile::forget_refusals() {
   };
   any_refusals_ = false;
   for (std::size_t i = 0; i < cell_count; ++i) {
-    if (refusals_[i] != 0 && filter_.weight[i] > 0 && !has_set_aside(i)) refusals_[i] = 0;
+    if (refusals_[i] != 0 && row(i).weight[i % side] > 0 && !has_set_aside(i)) refusals_[i] = 0;
     any_refusals_ |= refusals_[i] != 0;
   }
 }
@@ -152,55 +183,61 @@ void FusionTile::sort_set_aside() {
   sorted_ = set_aside_.size();
 }
 
-FusionTile::Result FusionTile::publish(const FusionRules& rules, const TileLayers& layers) {
-  TileEstimate estimates;
-  estimate(filter_, still_, static_cast<float>(rules.gate.weight_scale), estimates);
-  write_touched(estimates, estimates.height, layers.elevation, layers.window);
-  write_touched(estimates, estimates.variance, layers.variance, layers.window);
-  write_touched(estimates, estimates.rate, layers.rate, layers.window);
-  write_touched(estimates, estimates.rate_variance, layers.rate_variance, layers.window);
+FusionTile::Result FusionTile::publish(Rows rows, const FusionRules& rules, const TileLayers& layers) {
+  for_each_row(rows, [&](std::size_t y) {
+    write_estimates(rows_[y], still_, rules.scale, layers.row(y), layers.columns);
+  });
   Result result;
   if (set_aside_.empty()) return result;
 
-  const auto write = [&](std::size_t at, float height, float variance, float rate, float rate_variance) {
-    const std::size_t to = at / side * layers.window.stride + at % side;
-    layers.elevation[to] = height;
-    layers.variance[to] = variance;
-    layers.rate[to] = rate;
-    layers.rate_variance[to] = rate_variance;
+  const auto write = [&](std::size_t at, const CellEstimate& estimate) {
+    const RowLayers to = layers.row(at / side);
+    to.elevation[at % side] = static_cast<float>(estimate.height);
+    to.variance[at % side] = static_cast<float>(estimate.variance);
+    to.rate[at % side] = static_cast<float>(estimate.rate);
+    to.rate_variance[at % side] = static_cast<float>(estimate.rate_variance);
   };
   sort_set_aside();
   for_each_surface(set_aside_, rules, [&](std::size_t at, const SurfaceSum& sum) {
     const Verdict verdict = judge(at, sum, rules);
     if (verdict == Verdict::begins) {
       ++result.new_cells;
-      write(at, static_cast<float>(sum.height()), static_cast<float>(variance_of(sum, rules)), 0,
-            static_cast<float>(rules.first_rate_variance));
+      write(at, {sum.height(), variance_of(sum, rules), 0, rules.first_rate_variance});
     } else if (verdict == Verdict::refused) {
       ++result.outlier_cells;
-      write(at, estimates.height[at], estimates.variance[at], estimates.rate[at],
-            estimates.rate_variance[at]);
+      result.outliers += sum.count;
+      write(at, estimate(row(at), at % side, still_, rules.scale));
     }
   });
   return result;
 }
 
-void FusionTile::begin_cell(std::size_t at, const CellEstimate& known) {
-  filter_.height[at] = fixed::steps(known.height);
-  filter_.rate[at] = static_cast<float>(known.rate);
-  filter_.height_variance[at] = static_cast<float>(known.variance);
-  filter_.covariance[at] = 0;
-  filter_.rate_variance[at] = static_cast<float>(known.rate_variance);
-  filter_.still_offset[at] = static_cast<float>(known.height - fixed::metres(filter_.height[at]));
-  filter_.still_variance[at] = filter_.height_variance[at];
-  filter_.weight[at] = 0;
-  filter_.moment[at] = 0;
-  count_[at] = 1;
-  refusals_[at] = 0;
+void FusionTile::begin_cell(std::size_t cell, const CellEstimate& known) {
+  FilterRow& to = row(cell);
+  const std::size_t at = cell % side;
+  to.height[at] = fixed::steps(known.height);
+  to.rate[at] = static_cast<float>(known.rate);
+  to.height_variance[at] = static_cast<float>(known.variance);
+  to.covariance[at] = 0;
+  to.rate_variance[at] = static_cast<float>(known.rate_variance);
+  to.still_offset[at] = static_cast<float>(known.height - fixed::metres(to.height[at]));
+  to.still_variance[at] = to.height_variance[at];
+  to.count[at] = 1;
+  to.weight[at] = 0;
+  to.moment[at] = 0;
+  refusals_[cell] = 0;
+}
+
+void FusionTile::forget_cell(std::size_t cell) {
+  begin_cell(cell, {0, 0, 0, 0});
+  row(cell).count[cell % side] = 0;
 }
 
 void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {
-  open(scan_ + 1, end, rules, steps);
+  open(scan_ + 1, end, ~Rows{0}, rules, steps, {});
+  open_ = 0;
+  row_time_.fill(0);
+  still_since_ = 0;
   scan_ = 0;
   time_ = 0;
 }
@@ -210,7 +247,7 @@ void FusionTile::write_counts(const FusionRules& rules, float* counts, std::size
     counts[at / side * stride + at % side] = static_cast<float>(count);
   };
   for (std::size_t at = 0; at < cell_count; ++at)
-    if (known(at)) write(at, count_[at]);
+    if (known(at)) write(at, row(at).count[at % side]);
   for_each_surface(set_aside_, rules, [&](std::size_t at, const SurfaceSum& sum) {
     if (judge(at, sum, rules) == Verdict::begins) write(at, sum.count);
   });

@@ -16,23 +16,18 @@ struct FusionRules {
   int patience = 2;
   double first_rate_variance = 0;  ///< of a new cell [m^2/s^2]
   float known_rate_variance = 0;   ///< of a cell that knows something of its rate [m^2/s^2]
+  PointScale scale;
 };
 
-/// Where a tile writes its estimates: the layers of the map from the tile's first cell on.
+/// Where a tile writes its estimates: as many rows and columns as lie in the map, `stride` cells apart.
 struct TileLayers {
-  float* elevation;
-  float* variance;
-  float* rate;
-  float* rate_variance;
-  TileWindow window;
-};
+  RowLayers first;
+  std::size_t rows, columns, stride;
 
-/// What a cell says of the bed.
-struct CellEstimate {
-  double height = 0;         ///< [m]
-  double variance = 0;       ///< [m^2]
-  double rate = 0;           ///< [m/s]
-  double rate_variance = 0;  ///< [m^2/s^2]
+  RowLayers row(std::size_t y) const {
+    const std::size_t at = y * stride;
+    return {first.elevation + at, first.variance + at, first.rate + at, first.rate_variance + at};
+  }
 };
 
 /// Up to 32 x 32 cells of the live height map.
@@ -43,24 +38,30 @@ struct CellEstimate {
 /// their order.
 class FusionTile {
  public:
-  static constexpr int side = TileFilter::side;
-  static constexpr std::size_t cell_count = TileFilter::cells;
+  static constexpr std::size_t side = FilterRow::cells;
+  static constexpr std::size_t cell_count = side * side;
+  /// A bit for each row of a tile.
+  using Rows = std::uint32_t;
 
-  /// Lets the processor fetch what publish() writes: rows of a large map, which it does not foresee.
-  static void prefetch(const TileLayers& layers);
-  /// Makes `scan` (at `time` [ms]) the open one, after taking in the one before.
-  void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules, HeightSteps& steps);
-  /// Adds samples to the open scan; how many agree with what is known.
+  /// The rows in which samples lie.
+  static Rows rows_of(const Sample* samples, std::size_t count);
+  /// Makes `scan` (at `time` [ms]) the open one, after taking in the one before, and lets `rows` reach it.
+  void open(std::uint32_t scan, std::uint32_t time, Rows rows, const FusionRules& rules, HeightSteps& steps,
+            const TileLayers& layers);
+  /// Adds samples, whose rows are open, to the open scan; how many agree with what is known.
   std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules);
   struct Result {
     std::size_t new_cells = 0;      ///< that begin, or begin anew, in the open scan
     std::size_t outlier_cells = 0;  ///< whose points were refused
+    std::size_t outliers = 0;       ///< points of these cells that were refused
   };
-  /// Writes the estimates of the cells with points in the open scan.
-  Result publish(const FusionRules& rules, const TileLayers& layers);
+  /// Writes the estimates of the cells with points in the open scan that lie in `rows`.
+  Result publish(Rows rows, const FusionRules& rules, const TileLayers& layers);
 
-  /// Begins a cell from a known map at time zero; no scan may be open.
+  /// Begins a cell from a known map at the tile's time; the open scan has no points in the tile yet.
   void begin_cell(std::size_t cell, const CellEstimate& known);
+  /// Makes a cell unknown; likewise.
+  void forget_cell(std::size_t cell);
   /// Moves on to the time `end`, which then is zero: the clock jumped back.
   void restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps);
   /// Writes the number of points on which each known cell rests, the open scan included; rows `stride` apart.
@@ -69,7 +70,9 @@ class FusionTile {
  private:
   enum class Verdict { agrees, refused, begins };
 
-  bool known(std::size_t cell) const { return filter_.height_variance[cell] > 0; }
+  FilterRow& row(std::size_t cell) { return rows_[cell / side]; }
+  const FilterRow& row(std::size_t cell) const { return rows_[cell / side]; }
+  bool known(std::size_t cell) const { return row(cell).height_variance[cell % side] > 0; }
   void judge_motion(const TileMotion& motion);
   void take_set_aside(const FusionRules& rules);
   void forget_refusals();
@@ -77,16 +80,18 @@ class FusionTile {
   int refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
   Verdict judge(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
 
-  TileFilter filter_;
-  std::array<std::uint32_t, cell_count> count_{};    ///< points on which a known cell rests
+  std::array<FilterRow, side> rows_;
+  std::array<std::uint32_t, side> row_time_{};       ///< that a row's prediction has reached [ms]
+  Rows open_ = 0;                                    ///< rows with points in the open scan
   std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
   std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
   bool any_refusals_ = false;
   std::vector<Sample> set_aside_;
   std::size_t sorted_ = 0;  ///< of those set aside, how many lie in order
   std::uint32_t scan_ = 0;  ///< 0: none
-  std::uint32_t time_ = 0;  ///< [ms]
+  std::uint32_t time_ = 0;  ///< of the open scan [ms]
   bool still_ = false;
+  std::uint32_t still_since_ = 0;  ///< [ms]
 };
 
 }  // namespace aeolian

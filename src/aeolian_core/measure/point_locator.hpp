@@ -27,7 +27,7 @@ struct PointCounts {
 /// Takes points of a cloud to the map frame, finds their tile and cell and weighs them with the noise model:
 /// plain arrays in, plain arrays out. Coordinates are double, so that large ones cancel.
 struct PointLocator {
-  static constexpr std::size_t batch = 512;
+  static constexpr std::size_t batch = 256;
   static constexpr std::int32_t nowhere = -1;
 
   std::array<double, 9> rotation{};  ///< row by row

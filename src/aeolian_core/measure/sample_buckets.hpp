@@ -1,74 +1,92 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "aeolian_core/measure/fixed_point.hpp"
 
 namespace aeolian {
 
-/// Samples by tile: for each tile a chain of small blocks out of one pool, which is kept for the next cloud.
-/// Tiles are then worked on one after the other, each in the fast cache.
+/// Samples by tile: for each tile a chain of blocks out of one pool, which is kept for the next cloud. Tiles
+/// are then worked on one after the other, each in the fast cache.
 class SampleBuckets {
  public:
-  /// Empties the buckets.
-  void clear() {
-    std::fill(chains_.begin(), chains_.end(), Chain());
-    blocks_.clear();
+  /// Empties the buckets and makes room for so many samples in tiles below `tiles`.
+  void reset(std::size_t tiles, std::size_t samples) {
+    ends_.assign(tiles, End());
+    first_.assign(tiles, none);
+    used_ = 0;
+    const std::size_t blocks = samples / block_size + std::min(tiles, samples) + blocks_ahead + 1;
+    const std::size_t room = blocks * stride;
+    if (room <= room_) return;
+    room_ = room;
+    pool_.reset(new Sample[room]);  // pages that are never used cost nothing
   }
-  /// Makes place for tiles below `tiles`.
-  void reserve(std::size_t tiles) {
-    if (chains_.size() < tiles) chains_.resize(tiles);
-  }
+  bool empty() const { return used_ == 0; }
   /// Adds samples, each to its tile; negative tiles: none.
   void add(const std::int32_t* tiles, const Sample* samples, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (tiles[i] < 0) continue;
-      Chain& chain = chains_[static_cast<std::size_t>(tiles[i])];
-      if (chain.room == 0) append_block(chain);
-      blocks_[chain.last].samples[block_size - chain.room--] = samples[i];
+      const auto tile = static_cast<std::size_t>(tiles[i]);
+      End& end = ends_[tile];
+      if (end.next == end.link) append_block(tile);
+      pool_[end.next++] = samples[i];
     }
   }
-  bool has(std::size_t tile) const { return tile < chains_.size() && chains_[tile].first != none; }
+  bool has(std::size_t tile) const { return tile < first_.size() && first_[tile] != none; }
+  /// Lets the processor fetch a tile's first samples.
+  void prefetch(std::size_t tile) const {
+    if (has(tile)) prefetch_block(first_[tile]);
+  }
   /// Calls `visit(samples, count)` for each block of a tile.
   template <class Visit>
   void for_each(std::size_t tile, Visit&& visit) const {
     if (!has(tile)) return;
-    for (std::uint32_t at = chains_[tile].first; at != none; at = blocks_[at].next)
-      visit(blocks_[at].samples.data(),
-            at == chains_[tile].last ? block_size - chains_[tile].room : block_size);
+    const End& end = ends_[tile];
+    std::size_t block = first_[tile];
+    while (block + block_size != end.link) {
+      const std::size_t next = pool_[block + block_size].bits();
+      prefetch_block(next);
+      visit(&pool_[block], block_size);
+      block = next;
+    }
+    visit(&pool_[block], end.next - block);
   }
 
  private:
-  static constexpr std::uint32_t none = 0xFFFFFFFF;
-  static constexpr std::uint32_t block_size = 31;
-  struct Block {
-    std::array<Sample, block_size> samples;
-    std::uint32_t next;
-  };
-  struct Chain {
-    std::uint32_t first = none;
-    std::uint32_t last = none;
-    std::uint32_t room = 0;  ///< in the last block
+  static constexpr std::size_t none = SIZE_MAX;
+  static constexpr std::size_t stride = 64;              ///< samples from block to block
+  static constexpr std::size_t block_size = stride - 1;  ///< one is the link to the next block
+  static constexpr std::size_t blocks_ahead = 4;         ///< are fetched before they are written
+  static constexpr std::size_t samples_per_line = 8;
+  struct End {
+    std::size_t next = 0;  ///< where the tile's next sample goes ...
+    std::size_t link = 0;  ///< ... unless it is here, where the link goes
   };
 
-  void append_block(Chain& chain) {
-    const auto at = static_cast<std::uint32_t>(blocks_.size());
-    blocks_.emplace_back();
-    blocks_.back().next = none;
-    if (chain.last == none)
-      chain.first = at;
+  void append_block(std::size_t tile) {
+    End& end = ends_[tile];
+    if (first_[tile] == none)
+      first_[tile] = used_;
     else
-      blocks_[chain.last].next = at;
-    chain.last = at;
-    chain.room = block_size;
+      pool_[end.link] = Sample(used_);
+    end = {used_, used_ + block_size};
+    used_ += stride;
+    const Sample* const soon = &pool_[used_ + (blocks_ahead - 1) * stride];
+    for (std::size_t i = 0; i < stride; i += samples_per_line) __builtin_prefetch(soon + i, 1);
+  }
+  void prefetch_block(std::size_t block) const {
+    for (std::size_t i = 0; i < block_size; i += samples_per_line) __builtin_prefetch(&pool_[block + i]);
   }
 
-  std::vector<Chain> chains_;
-  std::vector<Block> blocks_;
+  std::vector<End> ends_;
+  std::vector<std::size_t> first_;
+  std::unique_ptr<Sample[]> pool_;
+  std::size_t room_ = 0;
+  std::size_t used_ = 0;
 };
 
 }  // namespace aeolian

@@ -31,8 +31,10 @@ double SensorNoise::height_variance(double range, double cosine) const {
   return along * along * (cos2 + m2 * sin2) + across * across * (sin2 + m2 * cos2);
 }
 
-void SensorNoise::require_valid(double min_range, double max_range) const {
+void SensorNoise::require_valid() const {
   const auto finite = [](double v) { return std::isfinite(v); };
+  require(min_range >= 0 && finite(min_range), "min_range", min_range, "zero or positive");
+  require(max_range > min_range, "max_range", max_range, "greater than min_range");
   require(range_sigma > 0 && finite(range_sigma), "range_sigma", range_sigma, "positive and finite");
   require(finite(range_sigma_per_metre), "range_sigma_per_metre", range_sigma_per_metre, "finite");
   require(finite(range_sigma_per_square_metre) && range_sigma_per_square_metre >= 0,

@@ -2,7 +2,7 @@
 
 namespace aeolian {
 
-/// The noise of a range sensor.
+/// The noise of a range sensor, and between which ranges it holds.
 ///
 /// Along the ray a reading at range R [m] under incidence angle b (between ray and vertical, the normal of a
 /// bed of small slopes) has the standard deviation
@@ -25,6 +25,8 @@ struct SensorNoise {
   double angular_sigma = 0;                 ///< of the ray's direction [rad]
   double incidence_growth = 0;              ///< 0: none, 1: as 1 / cos b
   double range_bias = 0;                    ///< measured minus true range, taken off every reading [m]
+  double min_range = 0;                     ///< nearer readings do not count [m]
+  double max_range = 1e4;                   ///< farther readings do not count [m]
 
   static constexpr double bed_slope = 0.1;
   /// Rays flatter than this are taken to be this flat: the models end before.
@@ -34,7 +36,7 @@ struct SensorNoise {
   /// Of the height of one point [m^2]; `cosine` is cos b.
   double height_variance(double range, double cosine) const;
   /// Throws Error naming a member that is not finite or that makes the noise negative within the ranges.
-  void require_valid(double min_range, double max_range) const;
+  void require_valid() const;
 };
 
 }  // namespace aeolian

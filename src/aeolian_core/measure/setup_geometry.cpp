@@ -12,6 +12,12 @@
 namespace aeolian {
 namespace {
 
+[[noreturn]] void refuse_mark(double x, double pixels) {
+  throw Error(
+      fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
+                  1e3 * x, pixels));
+}
+
 constexpr double plumb_sigma = 0.5 * M_PI / 180;  // how well a camera is hung [rad]
 constexpr double exif_sigma = 0.05;               // of a focal length told by EXIF, relative
 constexpr double guessed_sigma = 0.35;            // of a focal length nobody tells
@@ -101,9 +107,7 @@ CameraPose plumb_pose(const PhotoSetup& setup, const CameraModel& camera) {
   for (std::size_t i = 0; i < u.size(); ++i) right.push_back(setup.scale[i].x * (c + u[i] * s));
   const Regression fit = regress(u, right);
   if (fit.worst * camera.fx / fit.slope > 3)
-    throw Error(
-        fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
-                    1e3 * setup.scale[fit.worst_at].x, fit.worst * camera.fx / fit.slope));
+    refuse_mark(setup.scale[fit.worst_at].x, fit.worst * camera.fx / fit.slope);
   const Eigen::Vector2d across(line.direction.y(), -line.direction.x());
   const double height = fit.slope;
   const Eigen::Vector3d centre(fit.offset, -line.point.dot(across) * height, height);
@@ -205,9 +209,7 @@ void overhead_geometry(const PhotoSetup& setup, const std::vector<PlanePoint>& p
     }
     const Regression fit = regress(x, t);
     if (fit.worst > std::max(3.0, 0.02 * std::abs(t.back() - t.front())))
-      throw Error(
-          fmt::format("scale marks disagree: the mark x = {:g} mm is {:.1f} px from where the others put it",
-                      1e3 * x[fit.worst_at], fit.worst));
+      refuse_mark(x[fit.worst_at], fit.worst);
     scale = std::abs(fit.slope);
     along = fit.slope > 0 ? line.direction : Eigen::Vector2d(-line.direction);
     origin = line.point + fit.offset * line.direction;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -86,21 +85,17 @@ class Measurement {
     const EdgeSpan span = visible_edge(*frame_.geometry, photo_.width_px, photo_.height_px, frame_.middle);
     const RoughTerminus rough =
         search_shadow(tone, photo_.width_px, photo_.height_px, *frame_.geometry, span, frame_.side);
-    const double middle = (span.from + span.to) / 2;
-    const Eigen::Vector2d along =
-        frame_.geometry->pixel(middle + 1e-5, 0) - frame_.geometry->pixel(middle - 1e-5, 0);
-    const double pixel_size = 2e-5 / along.norm();
+    const double pixel_size = 1 / frame_.geometry->pixels_along((span.from + span.to) / 2);
     const double spacing = std::max(setup_.grain_diameter.value_or(0), pixel_size);
     const Terminus terminus = without_jumps(locate_terminus(tone, *frame_.geometry, rough, spacing));
     std::vector<Eigen::Vector2d> pixels;
     for (const auto& station : terminus.stations) pixels.push_back(station.pixel);
     if (pixels.size() < fewest_stations) throw Error("no shadow with a clear border");
-    PhotoLight source{rough.side, {(photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0}, pixels};
+    PhotoLight source{rough.side, middle_px(), pixels};
     light_ = find_light(setup_, *frame_.geometry, source);
 
     const double half_width = smoothing_stations * spacing;
-    Section raw = section_of(pixels, *frame_.geometry, light_);
-    drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+    Section raw = section_without_walls(pixels, half_width, spacing);
     if (std::holds_alternative<PhotoSetup::Post>(setup_.light)) {
       // The bed's height under the post's shadow, again, from what belongs to the bed.
       source.terminus.clear();
@@ -108,8 +103,7 @@ class Measurement {
         if (!std::isnan(raw.z[i])) source.terminus.push_back(pixels[i]);
       if (source.terminus.size() < fewest_stations) throw Error("no shadow with a clear border");
       light_ = find_light(setup_, *frame_.geometry, source);
-      raw = section_of(pixels, *frame_.geometry, light_);
-      drop_walls(raw, local_quadratic(raw.x, raw.z, half_width), spacing);
+      raw = section_without_walls(pixels, half_width, spacing);
     }
     const LocalQuadratic smooth = local_quadratic(raw.x, raw.z, half_width);
     const std::vector<double> scatter = scatter_sigma(raw.z, smooth, half_width, spacing);
@@ -123,7 +117,6 @@ class Measurement {
     profile.edge_px = edge_on_photo(*frame_.geometry, span);
     profile.band_px = band_on_photo(*frame_.geometry, rough);
     profile.remarks = frame_.remarks;
-    if (setup_.wind_px) profile.downwind = setup_.wind_px->dot(along) < 0 ? -1 : 1;
     std::vector<double> slope;
     for (std::size_t i = 0; i < raw.x.size(); ++i) {
       if (std::isnan(smooth.fit[i]) || std::isnan(scatter[i])) continue;
@@ -185,15 +178,19 @@ class Measurement {
     return result;
   }
 
-  /// Takes out (as NaN) what no bed of grains can be: slopes well over the angle of repose, as at the end of
-  /// the straightedge's shadow or where something else casts it.
-  static void drop_walls(Section& raw, const LocalQuadratic& smooth, double spacing) {
+  /// The bed, without (as NaN) what no bed of grains can be: slopes well over the angle of repose, as at the
+  /// end of the straightedge's shadow or where something else casts it.
+  Section section_without_walls(const std::vector<Eigen::Vector2d>& pixels, double half_width,
+                                double spacing) const {
+    Section section = section_of(pixels, *frame_.geometry, light_);
+    const LocalQuadratic smooth = local_quadratic(section.x, section.z, half_width);
     std::vector<double> z = smooth.fit;
     for (std::size_t i = 0; i < z.size(); ++i)
       if (!(std::abs(smooth.slope[i]) < steepest_bed)) z[i] = std::numeric_limits<double>::quiet_NaN();
-    const std::vector<bool> part = continuous_part(raw.x, z, steepest_bed, 2 * spacing);
+    const std::vector<bool> part = continuous_part(section.x, z, steepest_bed, 2 * spacing);
     for (std::size_t i = 0; i < z.size(); ++i)
-      if (!part[i]) raw.z[i] = std::numeric_limits<double>::quiet_NaN();
+      if (!part[i]) section.z[i] = std::numeric_limits<double>::quiet_NaN();
+    return section;
   }
 
   /// Which stations the post or its shadow touches. Seen from above both start at the post's foot; for the
@@ -239,13 +236,14 @@ class Measurement {
           terminus.width_px, expected));
   }
 
+  Eigen::Vector2d middle_px() const { return {(photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0}; }
+
   /// +1 when the wind blows to larger x, -1 to smaller, nothing when it blows across or is not given.
   std::optional<double> downwind() const {
     if (!setup_.wind_px) return {};
-    const Eigen::Vector2d middle((photo_.width_px - 1) / 2.0, (photo_.height_px - 1) / 2.0);
     const Eigen::Vector2d step = setup_.wind_px->normalized();
     const Eigen::Vector2d way =
-        frame_.geometry->top_face(middle + step) - frame_.geometry->top_face(middle - step);
+        frame_.geometry->top_face(middle_px() + step) - frame_.geometry->top_face(middle_px() - step);
     if (std::abs(way.x()) < 0.2 * way.norm()) return {};
     return way.x() > 0 ? 1 : -1;
   }

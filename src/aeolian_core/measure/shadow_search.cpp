@@ -330,8 +330,7 @@ RoughTerminus search_side(const Tone& tone, int width, int height, const PhotoGe
 
 EdgeSpan visible_edge(const PhotoGeometry& geometry, int width_px, int height_px, double seed) {
   const auto seen = [&](double x) { return on_photo(geometry.pixel(x, 0), width_px, height_px); };
-  constexpr double tiny = 1e-5;
-  const double px = (geometry.pixel(seed + tiny, 0) - geometry.pixel(seed - tiny, 0)).norm() / (2 * tiny);
+  const double px = geometry.pixels_along(seed);
   const double step = 4 / px;
   const int most = 2 * (width_px + height_px) / 4;
   // The seed itself may lie off the photo: the first seen place beside it will do.
@@ -349,26 +348,22 @@ EdgeSpan visible_edge(const PhotoGeometry& geometry, int width_px, int height_px
 RoughTerminus search_shadow(const Tone& tone, int width_px, int height_px, const PhotoGeometry& geometry,
                             const EdgeSpan& span, int side) {
   if (side != 0) return search_side(tone, width_px, height_px, geometry, span, side);
-  std::optional<RoughTerminus> darkest;
+  std::vector<RoughTerminus> found;
   std::string reason;
   for (const int either : {1, -1}) try {
-      const RoughTerminus terminus = search_side(tone, width_px, height_px, geometry, span, either);
-      // On the light's side a grey bar against bright sand may look like a shadow, but never as dark as one.
-      const double ratio = darkest ? terminus.shade / darkest->shade : 0;
-      if (darkest && ratio > 1 / clearly_darker && ratio < clearly_darker)
-        throw Error(
-            "there is a shadow on either side of the straightedge: two lights, or give "
-            "straightedge.shadow_side or marks with y");
-      if (!darkest || ratio < 1) darkest = terminus;
+      found.push_back(search_side(tone, width_px, height_px, geometry, span, either));
     } catch (const Error& error) {
-      if (darkest && darkest->side != either) {
-        if (std::string(error.what()).rfind("there is a shadow on either side", 0) == 0) throw;
-      } else {
-        reason = error.what();
-      }
+      reason = error.what();
     }
-  if (!darkest) throw Error(reason);
-  return *darkest;
+  if (found.empty()) throw Error(reason);
+  if (found.size() == 1) return found.front();
+  // On the light's side a grey bar against bright sand may look like a shadow, but never as dark as one.
+  const double ratio = found[0].shade / found[1].shade;
+  if (ratio > 1 / clearly_darker && ratio < clearly_darker)
+    throw Error(
+        "there is a shadow on either side of the straightedge: two lights, or give straightedge.shadow_side "
+        "or marks with y");
+  return found[ratio < 1 ? 0 : 1];
 }
 
 }  // namespace aeolian

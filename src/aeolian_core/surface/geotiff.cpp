@@ -107,7 +107,14 @@ void write_band(GDALRasterBand& band, const GridGeometry& geometry, const std::s
   }
 }
 
-void write_file(const HeightMap& map, const std::string& path, const OGRSpatialReference& projection) {
+Dataset open(const std::string& path, const std::string& where) {
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset) throw Error(where + QuietGdal::reason());
+  return dataset;
+}
+
+void write_file(const HeightMap& map, const std::string& path, const OGRSpatialReference& projection,
+                const GeotiffNotes& notes) {
   const GridGeometry& geometry = map.geometry();
   const std::vector<std::string> names = map.names();
   const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", "INTERLEAVE=BAND", "BIGTIFF=IF_SAFER", nullptr};
@@ -122,6 +129,7 @@ void write_file(const HeightMap& map, const std::string& path, const OGRSpatialR
   std::string south;
   append_number(south, geometry.origin_y());
   dataset->SetMetadataItem(south_edge_item, south.c_str());
+  for (const auto& [name, text] : notes) dataset->SetMetadataItem(name.c_str(), text.c_str());
   if (!projection.IsEmpty()) dataset->SetSpatialRef(&projection);
   for (std::size_t i = 0; i < names.size(); ++i)
     write_band(*dataset->GetRasterBand(static_cast<int>(i) + 1), geometry, names[i], map.layer(names[i]));
@@ -129,7 +137,8 @@ void write_file(const HeightMap& map, const std::string& path, const OGRSpatialR
 
 }  // namespace
 
-void write_geotiff(const HeightMap& map, const std::string& path, const std::string& projection) {
+void write_geotiff(const HeightMap& map, const std::string& path, const std::string& projection,
+                   const GeotiffNotes& notes) {
   const QuietGdal quiet;
   const std::string where = "GeoTIFF '" + path + "': ";
   if (map.names().empty()) throw Error(where + "the map has no layers");
@@ -138,7 +147,7 @@ void write_geotiff(const HeightMap& map, const std::string& path, const std::str
     throw Error(where + "projection is '" + projection + "', must be known to GDAL, like EPSG:32632");
   require_metres(reference, where);
   write_atomically(path, [&](const std::string& temporary) {
-    write_file(map, temporary, reference);
+    write_file(map, temporary, reference, notes);
     if (QuietGdal::failed()) throw Error(where + QuietGdal::reason());
   });
 }
@@ -146,9 +155,7 @@ void write_geotiff(const HeightMap& map, const std::string& path, const std::str
 HeightMap read_geotiff(const std::string& path) {
   const QuietGdal quiet;
   const std::string where = "GeoTIFF '" + path + "': ";
-  const Dataset dataset(
-      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset) throw Error(where + QuietGdal::reason());
+  const Dataset dataset = open(path, where);
   if (dataset->GetRasterCount() == 0) throw Error(where + "has no bands");
   HeightMap map(geometry_of(*dataset, where));
   for (int i = 1; i <= dataset->GetRasterCount(); ++i) {
@@ -158,6 +165,18 @@ HeightMap read_geotiff(const std::string& path) {
     map.add(name, read_band(band, map.geometry(), where));
   }
   return map;
+}
+
+GeotiffNotes read_geotiff_notes(const std::string& path) {
+  const QuietGdal quiet;
+  const Dataset dataset = open(path, "GeoTIFF '" + path + "': ");
+  GeotiffNotes notes;
+  for (CSLConstList item = dataset->GetMetadata(); item != nullptr && *item != nullptr; ++item) {
+    const std::string text = *item;
+    const std::size_t sign = text.find('=');
+    if (sign != std::string::npos) notes[text.substr(0, sign)] = text.substr(sign + 1);
+  }
+  return notes;
 }
 
 }  // namespace aeolian

@@ -1,16 +1,19 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/twin/comparison.hpp"
+#include "aeolian_core/twin/difference.hpp"
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/twin/on_grid.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
@@ -23,6 +26,10 @@ class Comparator : public Node {
  private:
   using Map = grid_map_msgs::GridMap::ConstPtr;
 
+  struct Measured {
+    std_msgs::Header header;
+    std::shared_ptr<const HeightMap> surface;  ///< elevation, and variance if known
+  };
   struct WindSample {
     ros::Time stamp;
     double friction_velocity;
@@ -38,7 +45,18 @@ class Comparator : public Node {
     difference_publisher_ = nh().advertise<grid_map_msgs::GridMap>("difference", 1, /*latch=*/true);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Comparator::take_wind, this);
     forecast_subscriber_ = nh().subscribe("forecast", 100, &Comparator::take_forecast, this);
-    map_subscriber_ = nh().subscribe("height_map", 10, &Comparator::take_map, this);
+    WantedMap wanted;
+    wanted.layers = {layer::elevation, layer::variance};
+    wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
+      require_frame(topic, header);
+    };
+    wanted.queue_size = 10;
+    receiver_ = std::make_unique<MapReceiver>(
+        nh(), "height_map",
+        [this](const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
+          take_map(map, header, changed);
+        },
+        [this](const std::string& reason) { bad("map", reason); }, wanted);
   }
 
   void take_wind(const Map& message) {
@@ -67,30 +85,27 @@ class Comparator : public Node {
     }
   }
 
-  void take_map(const Map& message) {
-    try {
-      require_frame(map_subscriber_.getTopic(), message->info.header);
-      if (!maps_.empty() && message->info.header.stamp < maps_.back()->info.header.stamp) {
-        bad("clock", fmt::format("time jumped back (a bag that loops?): {} waiting forecasts were dropped",
-                                 pending_.size()));
-        pending_.clear();
-        maps_.clear();
-        wind_.clear();
-      } else if (!maps_.empty()) {
-        good("clock", "time runs forward");
-      }
-      maps_.push_back(message);
-      if (maps_.size() > max_maps_) maps_.pop_front();
-      score_pending();
-    } catch (const Error& error) {
-      bad("map", error.what());
+  void take_map(const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
+    if (!maps_.empty() && header.stamp < maps_.back().header.stamp) {
+      bad("clock", fmt::format("time jumped back (a bag that loops?): {} waiting forecasts were dropped",
+                               pending_.size()));
+      pending_.clear();
+      maps_.clear();
+      wind_.clear();
+    } else if (!maps_.empty()) {
+      good("clock", "time runs forward");
     }
+    const bool same = changed.empty() && !maps_.empty();
+    maps_.push_back({header, same ? maps_.back().surface : std::make_shared<const HeightMap>(map)});
+    if (maps_.size() > max_maps_) maps_.pop_front();
+    score_pending();
+    good("map", "in use");
   }
 
   /// Scores the forecasts whose time has come: the nearest map is known once one at or after it has arrived.
   void score_pending() {
     if (maps_.empty()) return;
-    const ros::Time newest = maps_.back()->info.header.stamp;
+    const ros::Time newest = maps_.back().header.stamp;
     const auto due = [&](const Map& forecast) { return forecast->info.header.stamp <= newest; };
     const auto first_due =
         std::stable_partition(pending_.begin(), pending_.end(), [&](const Map& m) { return !due(m); });
@@ -105,23 +120,23 @@ class Comparator : public Node {
     }
   }
 
-  const grid_map_msgs::GridMap& nearest_map(const ros::Time& time) const {
-    const auto distance = [&](const Map& map) { return std::abs((map->info.header.stamp - time).toSec()); };
-    const Map& nearest = *std::min_element(
-        maps_.begin(), maps_.end(), [&](const Map& a, const Map& b) { return distance(a) < distance(b); });
+  const Measured& nearest_map(const ros::Time& time) const {
+    const auto distance = [&](const Measured& map) { return std::abs((map.header.stamp - time).toSec()); };
+    const Measured& nearest =
+        *std::min_element(maps_.begin(), maps_.end(),
+                          [&](const Measured& a, const Measured& b) { return distance(a) < distance(b); });
     if (distance(nearest) > tolerance_)
       throw Error(fmt::format(
           "the map nearest to a forecast for {}.{:09} is {:.2f} s away, must be within {} s (~tolerance)",
           time.sec, time.nsec, distance(nearest), tolerance_));
-    return *nearest;
+    return nearest;
   }
 
-  void score(const grid_map_msgs::GridMap& forecast_message, const grid_map_msgs::GridMap& measured_message) {
-    const HeightMap measured = to_height_map(measured_message);
-    const GridGeometry& geometry = measured.geometry();
+  void score(const grid_map_msgs::GridMap& forecast_message, const Measured& measured) {
+    const GridGeometry& geometry = measured.surface->geometry();
     const HeightMap forecast = on_grid(to_height_map(forecast_message), geometry);
     const HeightMap::Layer& predicted = forecast.layer(layer::elevation);
-    const HeightMap::Layer& heights = measured.layer(layer::elevation);
+    const HeightMap::Layer& heights = measured.surface->layer(layer::elevation);
 
     const std_msgs::Header& header = forecast_message.info.header;
     const ros::Time issued = header.stamp - ros::Duration(lead_time(forecast));
@@ -129,12 +144,10 @@ class Comparator : public Node {
                                           wind_direction(issued, header.stamp));
     comparison_publisher_.publish(to_message(comparison, header, issued));
 
-    HeightMap difference(geometry);
-    HeightMap::Layer& values = difference.add("difference");
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = predicted[i] - heights[i];
+    HeightMap difference = difference_map(forecast, *measured.surface);
     difference.add(layer::elevation, heights);
     difference.add(layer::lead_time, forecast.layer(layer::lead_time));
-    difference_publisher_.publish(to_message(difference, measured_message.info.header));
+    difference_publisher_.publish(to_message(difference, measured.header));
     good("forecast",
          fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of {:.2f} against "
                      "persistence",
@@ -164,37 +177,38 @@ class Comparator : public Node {
   double direction_ = 0;
   std::size_t max_maps_ = 0;
   std::size_t max_pending_ = 0;
-  std::deque<Map> maps_;     ///< the newest measured maps, oldest first
-  std::deque<Map> pending_;  ///< forecasts whose time has not come
+  std::deque<Measured> maps_;  ///< the newest measured maps, oldest first
+  std::deque<Map> pending_;    ///< forecasts whose time has not come
   std::deque<WindSample> wind_;
   ros::Publisher comparison_publisher_;
   ros::Publisher difference_publisher_;
   ros::Subscriber wind_subscriber_;
   ros::Subscriber forecast_subscriber_;
-  ros::Subscriber map_subscriber_;
+  std::unique_ptr<MapReceiver> receiver_;
 };
 
 NodeDescription describe_comparator() {
-  return {"comparator",
-          "scores every forecast against the measurement of its time",
-          {"height_map (grid_map_msgs/GridMap)", "forecast (grid_map_msgs/GridMap)",
-           "wind_field (grid_map_msgs/GridMap)"},
-          {"comparison (aeolian_msgs/Comparison)",
-           "difference (grid_map_msgs/GridMap, latched): difference (predicted - measured), elevation "
-           "(measured) [m], lead_time [s]"},
-          {
-              frame_parameter(),
-              {"tolerance", 1.0, "s", "the map compared must be so near to the forecast's time",
-               Limits::not_negative()},
-              {"direction_deg", 0.0, "degrees",
-               "where the wind blows to, counter-clockwise from east, until it is known",
-               Limits::between(-360, 360)},
-              {"max_pending", 100, "", "forecasts that may wait for their measurement",
-               Limits::between(1, 10000)},
-              {"max_maps", 20, "", "measured maps that are kept for forecasts that come late",
-               Limits::between(2, 1000)},
-          },
-          [] { return std::make_shared<Comparator>(); }};
+  return {
+      "comparator",
+      "scores every forecast against the measurement of its time",
+      {"height_map, height_map_updates (grid_map_msgs/GridMap): whole, what has changed",
+       "forecast (grid_map_msgs/GridMap)", "wind_field (grid_map_msgs/GridMap)"},
+      {"comparison (aeolian_msgs/Comparison)",
+       "difference (grid_map_msgs/GridMap, latched): difference (predicted - measured), lod95 (what noise "
+       "alone exceeds in 5 % of the cells; of maps with variance), elevation (measured) [m], lead_time [s]"},
+      {
+          frame_parameter(),
+          {"tolerance", 1.0, "s", "the map compared must be so near to the forecast's time",
+           Limits::not_negative()},
+          {"direction_deg", 0.0, "degrees",
+           "where the wind blows to, counter-clockwise from east, until it is known",
+           Limits::between(-360, 360)},
+          {"max_pending", 100, "", "forecasts that may wait for their measurement",
+           Limits::between(1, 10000)},
+          {"max_maps", 20, "", "measured maps that are kept for forecasts that come late",
+           Limits::between(2, 1000)},
+      },
+      [] { return std::make_shared<Comparator>(); }};
 }
 
 }  // namespace aeolian

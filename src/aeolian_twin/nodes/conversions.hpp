@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -12,14 +11,12 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
-#include <visualization_msgs/Marker.h>
 
 #include "aeolian_core/measure/photo.hpp"
 #include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/measure/shadow_profile.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
-#include "aeolian_core/surface/shading.hpp"
 #include "aeolian_core/twin/comparison.hpp"
 #include "aeolian_core/wind/wind_model.hpp"
 
@@ -31,10 +28,10 @@ namespace aeolian {
 /// rows (x) fastest: each layer is the other's in reverse. `elevation` is the basic layer when there is one.
 grid_map_msgs::GridMap to_message(const HeightMap& map, const std_msgs::Header& header);
 
-/// Start indices (of a map that moves with a robot) and both storage orders are honoured. Throws Error for a
-/// resolution or length that is not positive and finite, a rotated pose, or a layer that does not fit the
-/// map.
-HeightMap to_height_map(const grid_map_msgs::GridMap& message);
+/// Only some layers of those that are there, unless none are named. Start indices (of a map that moves with a
+/// robot) and both storage orders are honoured. Throws Error for a resolution or length that is not positive
+/// and finite, a rotated pose, or a layer that does not fit the map.
+HeightMap to_height_map(const grid_map_msgs::GridMap& message, const std::vector<std::string>& only = {});
 
 /// Any order of fields, float32 or float64, either byte order, padded rows. Points that are not finite are
 /// kept. The origin is the first finite point in whole metres when a coordinate exceeds 1000 m, else zero.
@@ -78,21 +75,5 @@ aeolian_msgs::Profile to_message(const ShadowProfile& profile, const ProfileAnal
 /// near the frame's origin, so that floats hold them.
 sensor_msgs::PointCloud2 to_cloud(const std::vector<Eigen::Vector3d>& points,
                                   const std::vector<double>& sigma_z, const std_msgs::Header& header);
-
-/// Where and how a map is drawn.
-struct Drawing {
-  std::string layer;                      ///< drawn as height
-  std::array<double, 3> offset{0, 0, 0};  ///< added to every point [m]
-  double exaggeration = 1;                ///< of the heights above the layer's lowest
-  std::vector<Rgb> colours;               ///< one for each cell
-};
-
-/// A point (x, y, z, rgb) for each known cell.
-sensor_msgs::PointCloud2 to_coloured_cloud(const HeightMap& map, const Drawing& drawing,
-                                           const std_msgs::Header& header);
-
-/// Two triangles between each four known neighbours, a colour at each vertex, about the map's corner as pose.
-visualization_msgs::Marker to_mesh(const HeightMap& map, const Drawing& drawing,
-                                   const std_msgs::Header& header);
 
 }  // namespace aeolian

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -13,6 +14,7 @@
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
@@ -37,7 +39,8 @@ class Forecaster : public Node {
   };
   /// A map to start from and the wind that is to move it.
   struct Job {
-    grid_map_msgs::GridMap::ConstPtr start;
+    HeightMap start;
+    std_msgs::Header header;
     Forcing forcing;
   };
 
@@ -65,7 +68,18 @@ class Forecaster : public Node {
     publisher_ =
         nh().advertise<grid_map_msgs::GridMap>("forecast", static_cast<std::uint32_t>(horizons_.size()) + 10);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Forecaster::take_wind, this);
-    map_subscriber_ = nh().subscribe("height_map", 2, &Forecaster::take_map, this);
+    WantedMap wanted;
+    wanted.layers = {layer::elevation, layer::ground};
+    wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
+      require_frame(topic, header);
+    };
+    wanted.queue_size = 2;
+    receiver_ = std::make_unique<MapReceiver>(
+        nh(), "height_map",
+        [this](const HeightMap& map, const std_msgs::Header& header, const TileMask&) {
+          take_map(map, header);
+        },
+        [this](const std::string& reason) { bad("map", reason); }, wanted);
     worker_ = std::thread([this] { work(); });
   }
 
@@ -84,22 +98,18 @@ class Forecaster : public Node {
     }
   }
 
-  void take_map(const grid_map_msgs::GridMap::ConstPtr& message) {
-    const ros::Time stamp = message->info.header.stamp;
-    try {
-      require_frame(map_subscriber_.getTopic(), message->info.header);
-      if (stamp < last_map_) {
-        bad("clock",
-            fmt::format("time jumped back by {:.1f} s (a bag that loops?)", (last_map_ - stamp).toSec()));
-      } else if (!last_map_.isZero()) {
-        good("clock", "time runs forward");
-      }
-      last_map_ = stamp;
-      if (!is_due(stamp)) return;
-      if (const std::optional<Forcing> forcing = forcing_before(stamp)) submit({message, *forcing});
-    } catch (const Error& error) {
-      bad("map", error.what());
+  void take_map(const HeightMap& map, const std_msgs::Header& header) {
+    const ros::Time stamp = header.stamp;
+    if (stamp < last_map_) {
+      bad("clock",
+          fmt::format("time jumped back by {:.1f} s (a bag that loops?)", (last_map_ - stamp).toSec()));
+    } else if (!last_map_.isZero()) {
+      good("clock", "time runs forward");
     }
+    last_map_ = stamp;
+    if (!is_due(stamp)) return;
+    if (const std::optional<Forcing> forcing = forcing_before(stamp)) submit({map, header, *forcing});
+    good("map", "in use");
   }
 
   /// The mean forcing over the wind window that ends at a time, each sample with the time for which it
@@ -138,7 +148,7 @@ class Forecaster : public Node {
 
   /// Hands a job to the worker; one that still waits there is replaced, so that the newest map wins.
   void submit(Job job) {
-    const ros::Time stamp = job.start->info.header.stamp;
+    const ros::Time stamp = job.header.stamp;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (working_) {
@@ -167,7 +177,7 @@ class Forecaster : public Node {
       if (stop_) return;
       const Job job = std::move(*next_);
       next_.reset();
-      started_ = job.start->info.header.stamp;
+      started_ = job.header.stamp;
       working_ = true;
       lock.unlock();
       forecast(job);
@@ -179,10 +189,8 @@ class Forecaster : public Node {
   void forecast(const Job& job) {
     try {
       const ros::WallTime begin = ros::WallTime::now();
-      const std_msgs::Header& start = job.start->info.header;
-      for (const Forecast& forecast :
-           make_forecasts(to_height_map(*job.start), job.forcing, horizons_, *model_)) {
-        std_msgs::Header header = start;
+      for (const Forecast& forecast : make_forecasts(job.start, job.forcing, horizons_, *model_)) {
+        std_msgs::Header header = job.header;
         header.stamp += ros::Duration(forecast.lead_time);
         publisher_.publish(to_message(forecast.map, header));
       }
@@ -207,8 +215,8 @@ class Forecaster : public Node {
   std::deque<WindSample> wind_;
   ros::Time last_map_;
   ros::Publisher publisher_;
-  ros::Subscriber map_subscriber_;
   ros::Subscriber wind_subscriber_;
+  std::unique_ptr<MapReceiver> receiver_;
 
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
@@ -225,7 +233,8 @@ NodeDescription describe_forecaster() {
   return {
       "forecaster",
       "predicts the surface from the newest map and the wind",
-      {"height_map (grid_map_msgs/GridMap)", "wind_field (grid_map_msgs/GridMap)"},
+      {"height_map, height_map_updates (grid_map_msgs/GridMap): whole, what has changed",
+       "wind_field (grid_map_msgs/GridMap)"},
       {"forecast (grid_map_msgs/GridMap) for each horizon: elevation, initial [m], lead_time [s]; stamped "
        "with the "
        "time for which it holds"},

@@ -61,12 +61,9 @@ HeightMap::Layer to_layer(const std::string& name, const std_msgs::Float32MultiA
     throw Error(fmt::format("grid map: layer '{}' has {} x {} cells and {} values, must have {} x {} cells",
                             name, rows_dim.size, columns_dim.size,
                             array.data.size() - std::min(offset, array.data.size()), rows, columns));
+  if (!row_major && first_row == 0 && first_column == 0)
+    return {array.data.rbegin(), array.data.rend() - static_cast<std::ptrdiff_t>(offset)};
   HeightMap::Layer values(geometry.size());
-  if (!row_major && first_row == 0 && first_column == 0) {
-    std::reverse_copy(array.data.begin() + static_cast<std::ptrdiff_t>(offset), array.data.end(),
-                      values.begin());
-    return values;
-  }
   for (int column = 0; column < columns; ++column) {
     const int stored_column = (column + first_column) % columns;
     for (int row = 0; row < rows; ++row) {
@@ -117,7 +114,7 @@ grid_map_msgs::GridMap to_message(const HeightMap& map, const std_msgs::Header& 
   return message;
 }
 
-HeightMap to_height_map(const grid_map_msgs::GridMap& message) {
+HeightMap to_height_map(const grid_map_msgs::GridMap& message, const std::vector<std::string>& only) {
   HeightMap map(to_geometry(message.info));
   const GridGeometry& geometry = map.geometry();
   if (message.layers.size() != message.data.size())
@@ -128,9 +125,11 @@ HeightMap to_height_map(const grid_map_msgs::GridMap& message) {
   if (first_row >= geometry.nx() || first_column >= geometry.ny())
     throw Error(fmt::format("grid map: start index is ({}, {}), must be within {} rows and {} columns",
                             first_row, first_column, geometry.nx(), geometry.ny()));
-  for (std::size_t i = 0; i < message.layers.size(); ++i)
-    map.add(message.layers[i],
-            to_layer(message.layers[i], message.data[i], geometry, first_row, first_column));
+  for (std::size_t i = 0; i < message.layers.size(); ++i) {
+    const std::string& name = message.layers[i];
+    if (only.empty() || std::find(only.begin(), only.end(), name) != only.end())
+      map.add(name, to_layer(name, message.data[i], geometry, first_row, first_column));
+  }
   return map;
 }
 

@@ -14,12 +14,13 @@ SensorFile read_sensor_file(const std::string& path) {
   sensor.noise.angular_sigma = file.number("angular_sigma_deg", 0, 10) * M_PI / 180;
   sensor.noise.incidence_growth = file.number("incidence_growth", 0, 10);
   sensor.noise.range_bias = file.number("range_bias_m", -10, 10);
-  sensor.min_range = file.number("min_range_m", 0, 1e6);
-  sensor.max_range = file.positive("max_range_m");
+  sensor.noise.min_range = file.number("min_range_m", 0, 1e6);
+  sensor.noise.max_range = file.positive("max_range_m");
   file.finish();
-  if (sensor.max_range <= sensor.min_range) file.refuse("max_range_m", "must be greater than min_range_m");
+  if (sensor.noise.max_range <= sensor.noise.min_range)
+    file.refuse("max_range_m", "must be greater than min_range_m");
   try {
-    sensor.noise.require_valid(sensor.min_range, sensor.max_range);
+    sensor.noise.require_valid();
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }

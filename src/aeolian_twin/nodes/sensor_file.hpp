@@ -10,8 +10,6 @@ namespace aeolian {
 struct SensorFile {
   std::string name;
   SensorNoise noise;
-  double min_range = 0;  ///< [m]
-  double max_range = 0;  ///< [m]
 };
 
 /// Reads such a file; throws Error naming file, line, key and what is allowed.

@@ -1,21 +1,23 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_core/twin/forecast.hpp"
-#include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/drawn_surface.hpp"
+#include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
 
-/// Any grid map as a coloured point cloud and a shaded mesh for a stock rviz. Nothing is converted that
-/// nobody looks at; one who starts to look gets the last map.
+/// Any grid map as a coloured point cloud and a shaded mesh for a stock rviz. Only what has changed is drawn
+/// anew, and nothing that nobody looks at; one who starts to look gets the last picture.
 class SurfaceDisplay : public Node {
  public:
   SurfaceDisplay() : Node(describe_surface_display()) {}
@@ -24,164 +26,162 @@ class SurfaceDisplay : public Node {
   void start() override {
     heights_ = parameters().text("layer");
     values_ = parameters().text("value_layer").empty() ? heights_ : parameters().text("value_layer");
-    palette_ = parameters().text("palette") == "diverging" ? Palette::diverging : Palette::sand;
-    range_ = {parameters().number("range_low"), parameters().number("range_high")};
-    if (range_.low > range_.high) parameters().refuse("range_low", "at most range_high");
+    look_.palette = parameters().text("palette") == "diverging" ? Palette::diverging : Palette::sand;
+    look_.range = {parameters().number("range_low"), parameters().number("range_high")};
+    if (look_.range.low > look_.range.high) parameters().refuse("range_low", "at most range_high");
+    chooses_range_ = look_.range.low == look_.range.high;
     if (parameters().numbers("offset").size() != 3) parameters().refuse("offset", "a list of three numbers");
-    std::copy_n(parameters().numbers("offset").begin(), 3, offset_.begin());
     centred_ = parameters().flag("centred");
-    shaded_ = parameters().flag("shaded");
-    exaggeration_ = parameters().number("exaggeration");
-    max_cells_ = parameters().number("max_mesh_cells");
+    look_.shaded = parameters().flag("shaded");
+    look_.exaggeration = parameters().number("exaggeration");
+    mesh_.emplace(parameters().number("max_mesh_cells"));
     title_ = parameters().text("title");
 
-    using Subscriber = ros::SingleSubscriberPublisher;
+    using Looker = ros::SingleSubscriberPublisher;
     cloud_publisher_ = nh().advertise<sensor_msgs::PointCloud2>(
-        "cloud", 1, [this](const Subscriber& to) { show([&] { to.publish(cloud()); }); });
+        "cloud", 1, [this](const Looker& to) { show([&] { to.publish(draw_cloud()); }); });
     mesh_publisher_ = nh().advertise<visualization_msgs::MarkerArray>(
-        "mesh", 1, [this](const Subscriber& to) { show([&] { to.publish(mesh()); }); });
-    subscriber_ = nh().subscribe("map", 1, &SurfaceDisplay::take, this);
+        "mesh", 1, [this](const Looker& to) { show([&] { to.publish(draw_mesh()); }); });
+    WantedMap wanted;
+    wanted.layers = {heights_, values_, layer::lead_time};
+    wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
+      require_frame(topic, header);
+    };
+    receiver_ = std::make_unique<MapReceiver>(
+        nh(), "map",
+        [this](const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
+          take(map, header, changed);
+        },
+        [this](const std::string& reason) { bad("map", reason); }, wanted);
   }
 
-  void take(const grid_map_msgs::GridMap::ConstPtr& message) {
-    message_ = message;
-    if (cloud_publisher_.getNumSubscribers() > 0) show([this] { cloud_publisher_.publish(cloud()); });
-    if (mesh_publisher_.getNumSubscribers() > 0) show([this] { mesh_publisher_.publish(mesh()); });
+  void take(const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
+    const bool another = !map_ || geometry_ != map.geometry();
+    map_ = &map;
+    header_ = header;
+    geometry_ = map.geometry();
+    if (another) {
+      not_in_cloud_ = not_in_mesh_ = changed;
+    } else {
+      not_in_cloud_.merge(changed);
+      not_in_mesh_.merge(changed);
+    }
+    since_range_ = another ? changed.count() : since_range_ + changed.count();
+    if (changed.empty()) return;
+    if (cloud_publisher_.getNumSubscribers() > 0) show([this] { cloud_publisher_.publish(draw_cloud()); });
+    if (mesh_publisher_.getNumSubscribers() > 0) show([this] { mesh_publisher_.publish(draw_mesh()); });
   }
 
   template <class Publish>
   void show(Publish&& publish) {
-    if (!message_) return;
+    if (!map_) return;
     try {
-      require_frame(subscriber_.getTopic(), message_->info.header);
       publish();
       good("map", "shown");
     } catch (const Error& error) {
-      bad("map", subscriber_.getTopic() + ": " + error.what());
+      bad("map", receiver_->topic() + ": " + error.what());
     }
   }
 
-  sensor_msgs::PointCloud2 cloud() const {
-    const HeightMap map = to_height_map(*message_);
-    return to_coloured_cloud(map, drawing(map, range(map)), message_->info.header);
+  const sensor_msgs::PointCloud2& draw_cloud() {
+    const DrawnLayers layers = choose_look();
+    const sensor_msgs::PointCloud2& drawn = cloud_.draw(layers, look_, not_in_cloud_, header_);
+    not_in_cloud_.clear();
+    return drawn;
   }
 
-  visualization_msgs::MarkerArray mesh() const {
-    const HeightMap full = to_height_map(*message_);
-    const ValueRange shown = range(full);
-    const HeightMap map = thinned(full);
-    visualization_msgs::MarkerArray markers;
-    markers.markers.push_back(to_mesh(map, drawing(map, shown), message_->info.header));
-    if (!title_.empty()) markers.markers.push_back(title(map, shown));
-    for (visualization_msgs::Marker& marker : markers.markers)
-      marker.header.stamp = ros::Time();  // drawn at once
-    return markers;
+  const visualization_msgs::MarkerArray& draw_mesh() {
+    const DrawnLayers layers = choose_look();
+    std_msgs::Header header = header_;
+    header.stamp = ros::Time();  // drawn at once
+    visualization_msgs::MarkerArray& drawn = mesh_->draw(layers, look_, not_in_mesh_, header);
+    not_in_mesh_.clear();
+    drawn.markers.resize(title_.empty() ? 1 : 2);
+    if (!title_.empty()) drawn.markers.back() = title(header);
+    return drawn;
   }
 
-  ValueRange range(const HeightMap& map) const {
-    return range_.low < range_.high ? range_ : display_range(map.layer(values_), palette_);
+  /// The layers to be drawn. A range that the map gives is chosen anew only when as many tiles have changed
+  /// as the map has, so that few changes do not cost a walk over the whole map and colours do not flicker.
+  DrawnLayers choose_look() {
+    const DrawnLayers layers{geometry_, map_->layer(heights_), map_->layer(values_)};
+    look_.offset = offset();
+    const TileMask all(geometry_);
+    if (chooses_range_ && since_range_ >= all.tiles_x() * all.tiles_y()) {
+      look_.range = display_range(layers.values, look_.palette);
+      since_range_ = 0;
+    }
+    return layers;
   }
 
-  Drawing drawing(const HeightMap& map, const ValueRange& shown) const {
-    Drawing result;
-    result.layer = heights_;
-    result.exaggeration = exaggeration_;
-    result.offset = offset(map.geometry());
-    result.colours = shaded_ ? shaded_colours(map.geometry(), map.layer(values_), palette_, shown,
-                                              &map.layer(heights_), exaggeration_)
-                             : plain_colours(map.layer(values_), shown);
-    return result;
-  }
-
-  std::vector<Rgb> plain_colours(const HeightMap::Layer& values, const ValueRange& shown) const {
-    const double extent = shown.high > shown.low ? shown.high - shown.low : 1;
-    std::vector<Rgb> colours;
-    colours.reserve(values.size());
-    for (const float v : values)
-      colours.push_back(colour(palette_, (static_cast<double>(v) - shown.low) / extent));
-    return colours;
-  }
-
-  std::array<double, 3> offset(const GridGeometry& geometry) const {
-    std::array<double, 3> result{offset_[0] * geometry.length_x(), offset_[1] * geometry.length_y(),
-                                 offset_[2]};
+  std::array<double, 3> offset() const {
+    const std::vector<double>& lengths = parameters().numbers("offset");
+    std::array<double, 3> result{lengths[0] * geometry_.length_x(), lengths[1] * geometry_.length_y(),
+                                 lengths[2]};
     if (centred_) {
-      result[0] -= geometry.origin_x() + geometry.length_x() / 2;
-      result[1] -= geometry.origin_y() + geometry.length_y() / 2;
+      result[0] -= geometry_.origin_x() + geometry_.length_x() / 2;
+      result[1] -= geometry_.origin_y() + geometry_.length_y() / 2;
     }
     return result;
-  }
-
-  /// The map with so few cells that rviz stays quick.
-  HeightMap thinned(const HeightMap& map) const {
-    const GridGeometry& g = map.geometry();
-    const double factor = std::ceil(std::sqrt(static_cast<double>(g.size()) / max_cells_));
-    if (factor <= 1) return map;
-    const auto coarse = [factor](int cells) { return static_cast<int>(std::ceil(cells / factor)); };
-    return resample(
-        map, GridGeometry(g.origin_x(), g.origin_y(), g.cell() * factor, coarse(g.nx()), coarse(g.ny())));
   }
 
   /// The title with the lead time of a forecast and what the first and last colour mean, in millimetres or
   /// metres.
-  visualization_msgs::Marker title(const HeightMap& map, const ValueRange& shown) const {
+  visualization_msgs::Marker title(const std_msgs::Header& header) const {
     std::string text = title_;
-    if (map.has(layer::lead_time)) {
-      const HeightMap::Layer& lead = map.layer(layer::lead_time);
+    if (map_->has(layer::lead_time)) {
+      const HeightMap::Layer& lead = map_->layer(layer::lead_time);
       const auto known = std::find_if(lead.begin(), lead.end(), [](float t) { return std::isfinite(t); });
       if (known != lead.end()) text += fmt::format(" {:.0f} s ahead", *known);
     }
+    const ValueRange& shown = look_.range;
     const bool small = std::max(std::abs(shown.low), std::abs(shown.high)) < 0.5;
     const double unit = small ? 1e-3 : 1;
-    const bool diverging = palette_ == Palette::diverging;
+    const bool diverging = look_.palette == Palette::diverging;
     text += fmt::format(", {} {:.1f} to {} {:.1f} {}", diverging ? "blue" : "dark", shown.low / unit,
                         diverging ? "red" : "bright", shown.high / unit, small ? "mm" : "m");
 
-    const GridGeometry& geometry = map.geometry();
-    const std::array<double, 3> moved = offset(geometry);
     visualization_msgs::Marker marker;
-    marker.header = message_->info.header;
+    marker.header = header;
     marker.ns = "title";
     marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
     marker.action = visualization_msgs::Marker::ADD;
     marker.text = text;
-    marker.scale.z = 0.05 * geometry.length_x();
-    marker.pose.position.x = geometry.origin_x() + geometry.length_x() / 2 + moved[0];
-    marker.pose.position.y = geometry.origin_y() + geometry.length_y() + 0.9 * marker.scale.z + moved[1];
-    marker.pose.position.z = lowest(map.layer(heights_)) + moved[2];
+    marker.scale.z = 0.05 * geometry_.length_x();
+    marker.pose.position.x = geometry_.origin_x() + geometry_.length_x() / 2 + look_.offset[0];
+    marker.pose.position.y =
+        geometry_.origin_y() + geometry_.length_y() + 0.9 * marker.scale.z + look_.offset[1];
+    marker.pose.position.z = mesh_->lowest() + look_.offset[2];
     marker.pose.orientation.w = 1;
     marker.color.r = marker.color.g = marker.color.b = 0.15F;
     marker.color.a = 1;
     return marker;
   }
 
-  static double lowest(const HeightMap::Layer& heights) {
-    double low = std::numeric_limits<double>::infinity();
-    for (const float z : heights)
-      if (std::isfinite(z)) low = std::min(low, static_cast<double>(z));
-    return std::isfinite(low) ? low : 0;
-  }
-
   std::string heights_;
   std::string values_;
-  Palette palette_ = Palette::sand;
-  ValueRange range_;
-  std::array<double, 3> offset_{};
+  bool chooses_range_ = false;
   bool centred_ = false;
-  bool shaded_ = true;
-  double exaggeration_ = 1;
-  double max_cells_ = 0;
   std::string title_;
-  grid_map_msgs::GridMap::ConstPtr message_;
+  SurfaceLook look_;
+
+  const HeightMap* map_ = nullptr;  ///< the receiver's, once there is one
+  std_msgs::Header header_;
+  GridGeometry geometry_;
+  int since_range_ = 0;  ///< tiles changed since the range of the colours was chosen
+  TileMask not_in_cloud_;
+  TileMask not_in_mesh_;
+  DrawnCloud cloud_;
+  std::optional<DrawnMesh> mesh_;
   ros::Publisher cloud_publisher_;
   ros::Publisher mesh_publisher_;
-  ros::Subscriber subscriber_;
+  std::unique_ptr<MapReceiver> receiver_;
 };
 
 NodeDescription describe_surface_display() {
   return {"surface_display",
           "shows any grid map in a stock rviz",
-          {"map (grid_map_msgs/GridMap)"},
+          {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed"},
           {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
            "mesh (visualization_msgs/MarkerArray): shaded surface and title"},
           {

@@ -112,12 +112,10 @@ GridGeometry grid_of(const Options& options, const Progress& progress) {
 FusionParameters parameters_of(const Options& options) {
   FusionParameters parameters;
   parameters.robust = options.robust;
-  parameters.max_range = farthest;
+  parameters.sensor.max_range = farthest;
   if (!options.sensor.empty()) {
     const SensorFile sensor = read_sensor_file(options.sensor);
     parameters.sensor = sensor.noise;
-    parameters.min_range = sensor.min_range;
-    parameters.max_range = sensor.max_range;
   }
   return parameters;
 }

@@ -76,6 +76,30 @@ TEST_F(FusionOrder, OfChunks) {
                    }));
 }
 
+/// Rows of cells wait while others are seen, and the bed begins to move and comes to rest again.
+TEST_F(FusionOrder, OfChunksOfBandsOfABedThatRestsAndMoves) {
+  const auto map = [&](std::size_t chunk) {
+    HeightFusion fusion(GridGeometry(0, 0, 0.01, 64, 64), FusionParameters());
+    double crest = 0;
+    for (std::uint64_t k = 0; k < 60; ++k) {
+      if (k > 20 && k < 40) crest += 0.004;
+      RandomStream random(8, k);
+      const double from = k % 3 == 0 ? 0 : 0.6 * random.uniform();
+      std::vector<Eigen::Vector3d> points;
+      for (int i = 0; i < 6000; ++i) {
+        const double x = 0.64 * random.uniform();
+        points.emplace_back(x, from + (0.64 - from) * i / 6000,
+                            0.003 * std::sin(60 * (x - crest)) + 0.001 * random.normal());
+      }
+      const PointCloud cloud = seen_from(pose(), points);
+      for (std::size_t at = 0; at < cloud.size(); at += chunk)
+        fusion.add(part(cloud, at, std::min(at + chunk, cloud.size())), pose(), 1.0 * static_cast<double>(k));
+    }
+    return fusion.map();
+  };
+  expect_same_bits(map(6000), map(700));
+}
+
 TEST_F(FusionOrder, OfThreads) {
   HeightMap one;
   tbb::task_arena(1).execute([&] { one = whole(); });

@@ -49,6 +49,7 @@ TEST(Fusion, StatesItsErrorRightly) {
       ++cells;
     }
   }
+  RecordProperty("chi2", std::to_string(chi2 / cells));
   EXPECT_NEAR(chi2 / cells, 1, 0.1);
   EXPECT_LT(std::abs(weighted_error / weight), 4 / std::sqrt(weight));
 }
@@ -79,8 +80,8 @@ TEST(Fusion, RefusesAnOutlierAndAcceptsAStepAfterItsPatience) {
 TEST(Fusion, CountsWhatItCannotUse) {
   const GridGeometry g(0, 0, 0.1, 10, 10);
   FusionParameters p;
-  p.min_range = 0.1;
-  p.max_range = 5;
+  p.sensor.min_range = 0.1;
+  p.sensor.max_range = 5;
   const Eigen::Isometry3d pose = looking_down(0.5, 0.5, 1);
   const float nan = std::nanf("");
   const float inf = std::numeric_limits<float>::infinity();
@@ -102,7 +103,7 @@ TEST(Fusion, CountsWhatItCannotUse) {
   EXPECT_EQ(count_known(fusion.map().layer(layer::elevation)), 1U);
   EXPECT_EQ(result.changed.count(), 1);
 
-  p.min_range = 0;
+  p.sensor.min_range = 0;
   HeightFusion no_least(g, p);
   PointCloud zero;
   zero.push_back(0, 0, 0);
@@ -302,7 +303,7 @@ TEST(Fusion, NamesABadParameter) {
   p.gate_sigma = -1;
   EXPECT_NE(message(p).find("gate_sigma"), std::string::npos);
   p = {};
-  p.max_range = 0;
+  p.sensor.max_range = 0;
   EXPECT_NE(message(p).find("max_range"), std::string::npos);
   p = {};
   p.change.rate_sigma = std::nan("");

@@ -20,7 +20,9 @@ TEST(SensorNoise, IsThePolynomialOfTheKinect) {
   kinect.range_sigma_per_square_metre = 0.0019;
   for (const double z : {0.4, 1.0, 2.0, 3.0})
     EXPECT_NEAR(kinect.along_ray(z, 1), 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4), 1e-12);
-  EXPECT_NO_THROW(kinect.require_valid(0.4, 4));
+  kinect.min_range = 0.4;
+  kinect.max_range = 4;
+  EXPECT_NO_THROW(kinect.require_valid());
 }
 
 // A ray that meets a level bed under 60 degrees, drawn many times with errors along and across it.
@@ -86,7 +88,7 @@ TEST(SensorNoise, IsTheWeightOfEveryPoint) {
 TEST(SensorNoise, NamesABadMember) {
   const auto message = [](const SensorNoise& noise) {
     try {
-      noise.require_valid(0.1, 10);
+      noise.require_valid();
     } catch (const Error& e) {
       return std::string(e.what());
     }
@@ -102,6 +104,9 @@ TEST(SensorNoise, NamesABadMember) {
   noise = {};
   noise.incidence_growth = -1;
   EXPECT_NE(message(noise).find("incidence_growth"), std::string::npos);
+  noise = {};
+  noise.max_range = noise.min_range;
+  EXPECT_NE(message(noise).find("max_range"), std::string::npos);
 }
 
 }  // namespace

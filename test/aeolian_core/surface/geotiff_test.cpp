@@ -48,6 +48,16 @@ TEST_F(GeoTiff, GivesBackGeometryLayersAndValuesToTheLastBit) {
   EXPECT_EQ(folder_.count_files(), 1U) << "no side-car files";
 }
 
+TEST_F(GeoTiff, CarriesNotes) {
+  HeightMap map(GridGeometry(0, 0, 1, 2, 2));
+  map.add(layer::elevation, 1);
+  write_geotiff(map, folder_.file("map.tif"), {}, {{"FRAME", "bed = sand"}, {"STAMP", "1700000000.5"}});
+  const GeotiffNotes notes = read_geotiff_notes(folder_.file("map.tif"));
+  EXPECT_EQ(notes.at("FRAME"), "bed = sand");
+  EXPECT_EQ(notes.at("STAMP"), "1700000000.5");
+  EXPECT_NE(error_of([&] { read_geotiff_notes("/nowhere.tif"); }).find("/nowhere.tif"), std::string::npos);
+}
+
 TEST_F(GeoTiff, ReadsAForeignFileNorthUpWithItsNoDataValue) {
   ForeignTiff tiff;
   tiff.values = {11, 12, 13, 1, -9999, 3};

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/twin/quantile.hpp"
 
 namespace aeolian {
@@ -65,15 +66,24 @@ TEST(Quantile, LinearBetweenOrderStatistics) {
 }
 
 // With ties, unknown values, constant, and in an order that misleads the probe.
-TEST(Quantile, IsTheSameWithoutStoringALargeSample) {
-  constexpr std::size_t count = 200000;
+TEST(Quantile, IsTheSameWithoutSortingALargeSample) {
+  constexpr std::size_t count = 200005;
   const auto expect_same = [&](auto value) {
+    std::vector<float> values;
     std::vector<double> known;
-    for (std::size_t i = 0; i < count; ++i)
-      if (!std::isnan(value(i))) known.push_back(value(i));
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < count; ++i) {
+      values.push_back(static_cast<float>(value(i)));
+      if (std::isnan(values.back())) continue;
+      known.push_back(static_cast<double>(values.back()));
+      distances.push_back(std::abs(known.back() - 70000.5));
+    }
     for (const double share : {0.0, 0.1, 0.5, 0.7301, 1.0}) {
       std::vector<double> sample = known;
-      EXPECT_EQ(quantile_of(count, known.size(), share, value), quantile(sample, share)) << share;
+      EXPECT_EQ(quantile_of(values, known.size(), share), quantile(sample, share)) << share;
+      sample = distances;
+      EXPECT_EQ(quantile_of_distances(values, known.size(), share, 70000.5), quantile(sample, share))
+          << share;
     }
   };
   const auto scrambled = [](std::size_t i) { return static_cast<double>(i * 7919 % 200003); };
@@ -82,6 +92,64 @@ TEST(Quantile, IsTheSameWithoutStoringALargeSample) {
   expect_same([&](std::size_t i) { return i % 3 == 0 ? NAN : scrambled(i); });
   expect_same([](std::size_t) { return 4.0; });
   expect_same([&](std::size_t i) { return i * 16384 % 200000 < 16384 ? 0.0 : scrambled(i); });
+}
+
+/// Two surveys of 300 x 200 cells of 0.5 m, with errors of 3 and 4 cm, and what lies between them.
+class LevelOfDetection : public testing::Test {
+ protected:
+  template <class Height>
+  static HeightMap survey(double sigma, std::uint64_t stream, Height&& height) {
+    HeightMap map(GridGeometry(0, 0, 0.5, 300, 200));
+    HeightMap::Layer& z = map.add(layer::elevation);
+    RandomStream random(3, stream);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      z[i] = static_cast<float>(height(map.geometry().cell_at(i)) + sigma * random.normal());
+    map.add(layer::variance, static_cast<float>(sigma * sigma));
+    return map;
+  }
+  static double level(CellIndex) { return 1; }
+};
+
+TEST_F(LevelOfDetection, LeavesFivePercentOfABedThatRests) {
+  const HeightMap d = difference_map(survey(0.03, 1, level), survey(0.04, 2, level));
+  EXPECT_NEAR(static_cast<double>(d.layer(layer::lod95)[7]), 1.96 * 0.05, 1e-7);
+  const SignificantChange change = significant_change(d);
+  EXPECT_NEAR(static_cast<double>(change.cells) / 60000, 0.05, 4 * std::sqrt(0.05 * 0.95 / 60000));
+  EXPECT_NEAR(change.area, 0.25 * static_cast<double>(change.cells), 1e-9);
+}
+
+TEST_F(LevelOfDetection, FindsVolumesWithinTheirUncertainty) {
+  const auto moved = [](CellIndex at) { return at.x < 100 ? 1.4 : at.x >= 250 ? 0.2 : 1.0; };
+  std::vector<double> off;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const HeightMap before = survey(0.03, 100 + k, level);
+    HeightMap after = survey(0.04, 200 + k, moved);
+    for (int y = 0; y < 200; ++y)  // nothing there, so that only what was moved on purpose counts
+      for (int x = 100; x < 250; ++x)
+        after.layer(layer::elevation)[after.geometry().index(x, y)] = HeightMap::unknown;
+    const SignificantChange change = significant_change(difference_map(after, before));
+    EXPECT_EQ(change.cells, 30000U);
+    off.push_back((change.deposition - 0.25 * 20000 * 0.4) / change.deposition_sigma);
+    off.push_back((change.erosion - 0.25 * 10000 * 0.8) / change.erosion_sigma);
+    EXPECT_NEAR(change.deposition_sigma, 0.25 * 0.05 * std::sqrt(20000), 1e-6);
+  }
+  double squares = 0;
+  for (const double d : off) squares += d * d;
+  EXPECT_NEAR(squares / 80, 1, 4 * std::sqrt(2.0 / 80));
+}
+
+TEST_F(LevelOfDetection, TakesAMapWithoutVarianceAsExact) {
+  HeightMap forecast = survey(0, 1, level);
+  forecast.remove(layer::variance);
+  HeightMap measured = survey(0.03, 2, level);
+  measured.layer(layer::variance)[5] = HeightMap::unknown;
+  const HeightMap d = difference_map(forecast, measured);
+  EXPECT_NEAR(static_cast<double>(d.layer(layer::lod95)[0]), 1.96 * 0.03, 1e-7);
+  EXPECT_TRUE(std::isnan(d.layer(layer::lod95)[5]));
+  measured.remove(layer::variance);
+  EXPECT_FALSE(difference_map(forecast, measured).has(layer::lod95));
+  EXPECT_THROW(significant_change(difference_map(forecast, measured)), Error);
+  EXPECT_THROW(difference_map(measured, HeightMap(GridGeometry(0, 0, 0.5, 200, 300))), Error);
 }
 
 }  // namespace

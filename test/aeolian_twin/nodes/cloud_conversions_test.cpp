@@ -93,6 +93,22 @@ TEST(CloudConversion, ReadsEveryFormat) {
               to_point_cloud(make_cloud({fields, is_double, big_endian, padding, padding, 3 * padding})));
 }
 
+TEST(CloudConversion, ReadsLongRowsOfEveryStep) {
+  for (const std::uint32_t padding : {0U, 4U, 20U}) {
+    Format format;
+    format.point_padding = padding;
+    format.row_padding = 8;
+    const PointCloud cloud = to_point_cloud(make_cloud(format, 1300, 3));
+    ASSERT_EQ(cloud.size(), 3900U);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto number = static_cast<double>(i);
+      EXPECT_EQ(cloud.x[i], static_cast<float>(number));
+      EXPECT_EQ(cloud.y[i], static_cast<float>(10 * number));
+      EXPECT_EQ(cloud.z[i], static_cast<float>(100 * number));
+    }
+  }
+}
+
 TEST(CloudConversion, DoublesKeepMillimetresInUtm) {
   Format format;
   format.is_double = true;
@@ -147,61 +163,6 @@ TEST(CloudConversion, RefusesWhatDoesNotFit) {
   message.width = message.height = 0xFFFFFFFF;
   message.row_step = 0xFFFFFFFF;
   EXPECT_NE(error_of(message), "");
-}
-
-/// Two by two cells of 1 m from (10, 20), the last one unknown.
-struct Drawn {
-  HeightMap map{GridGeometry(10, 20, 1, 2, 2)};
-  Drawing drawing;
-  Drawn() {
-    map.add(layer::elevation, {1, 2, 3, HeightMap::unknown});
-    drawing.layer = layer::elevation;
-    drawing.colours = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {9, 9, 9}};
-  }
-};
-
-TEST(Drawing, CloudHasAColouredPointForEachKnownCell) {
-  Drawn d;
-  d.drawing.offset = {0, -100, 5};
-  d.drawing.exaggeration = 10;
-  const PointCloud2 cloud = to_coloured_cloud(d.map, d.drawing, std_msgs::Header());
-  ASSERT_EQ(cloud.width * cloud.height, 3U);
-  sensor_msgs::PointCloud2ConstIterator<float> xyz(cloud, "x");
-  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> r(cloud, "r");
-  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> g(cloud, "g");
-  xyz += 1;
-  r += 1;
-  g += 1;
-  EXPECT_EQ(xyz[0], 11.5F);
-  EXPECT_EQ(xyz[1], -79.5F);
-  EXPECT_EQ(xyz[2], 1 + 10 + 5);  // heights grow from the lowest, which stays
-  EXPECT_EQ(*r, 0);
-  EXPECT_EQ(*g, 255);
-}
-
-TEST(Drawing, MeshLeavesOutSquaresWithUnknownCorners) {
-  Drawn d;
-  EXPECT_TRUE(to_mesh(d.map, d.drawing, std_msgs::Header()).points.empty());
-  d.map.layer(layer::elevation)[3] = 4;
-  const visualization_msgs::Marker mesh = to_mesh(d.map, d.drawing, std_msgs::Header());
-  ASSERT_EQ(mesh.points.size(), 6U);
-  ASSERT_EQ(mesh.colors.size(), 6U);
-  EXPECT_EQ(mesh.pose.position.x + mesh.points[1].x, 11.5);
-  EXPECT_EQ(mesh.pose.position.y + mesh.points[1].y, 20.5);
-  EXPECT_EQ(mesh.pose.position.z + mesh.points[1].z, 2);
-  EXPECT_EQ(mesh.colors[1].g, 1);
-  for (std::size_t t = 0; t < 6; t += 3) {  // faces look up: counter-clockwise from above
-    const auto& a = mesh.points[t];
-    const auto& b = mesh.points[t + 1];
-    const auto& c = mesh.points[t + 2];
-    EXPECT_GT((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x), 0);
-  }
-}
-
-TEST(Drawing, RefusesColoursThatDoNotFit) {
-  Drawn d;
-  d.drawing.colours.pop_back();
-  EXPECT_THROW(to_mesh(d.map, d.drawing, std_msgs::Header()), Error);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <limits>
 #include <map>
 
+#include <grid_map_msgs/GetGridMap.h>
+#include <grid_map_msgs/ProcessFile.h>
+#include <grid_map_msgs/SetGridMap.h>
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
@@ -88,6 +91,13 @@ TEST(GridMapMessage, IsTheOneThatEveryToolKnows) {
   EXPECT_STREQ(ros::message_traits::MD5Sum<grid_map_msgs::GridMap>::value(),
                "95681e052b1f73bf87b7eb984382b401");
   EXPECT_STREQ(ros::message_traits::DataType<grid_map_msgs::GridMap>::value(), "grid_map_msgs/GridMap");
+}
+
+TEST(GridMapServices, AreThoseThatEveryToolKnows) {
+  namespace traits = ros::service_traits;
+  EXPECT_STREQ(traits::MD5Sum<grid_map_msgs::GetGridMap>::value(), "802c2cbc7b10fada2d44db75ddb8c738");
+  EXPECT_STREQ(traits::MD5Sum<grid_map_msgs::ProcessFile>::value(), "03f389710f49a6dd2a8b447bb2850cd6");
+  EXPECT_STREQ(traits::MD5Sum<grid_map_msgs::SetGridMap>::value(), "4f8e24cfd42bc1470fe765b7516ff7e5");
 }
 
 TEST(GridMapConversion, PutsEachValueAtItsPlace) {

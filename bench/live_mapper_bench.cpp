@@ -1,0 +1,181 @@
+// What height_mapper costs while it runs: the program itself under a master, clouds of 640 x 480 points at 10
+// Hz over TCP into 1000 x 1000 cells of 2 mm. The table gives its processor time in per cent of one core, and
+// what it sends.
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <unistd.h>
+
+#include "aeolian_core/surface/random.hpp"
+#include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/map_receiver.hpp"
+
+namespace {
+
+using namespace aeolian;
+
+constexpr double height_of_sensor = 1.2;
+constexpr double noise = 0.0006;
+constexpr double rate = 10;
+constexpr int warm_up = 50;
+constexpr int measured = 150;
+
+/// A program beside this one.
+class Child {
+ public:
+  explicit Child(const std::vector<std::string>& command) : pid_(fork()) {
+    if (pid_ != 0) return;
+    const int nothing = open("/dev/null", O_WRONLY);
+    dup2(nothing, STDOUT_FILENO);
+    dup2(nothing, STDERR_FILENO);
+    std::vector<char*> argv;
+    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    execvp(argv[0], argv.data());
+    _exit(127);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    kill(pid_, SIGINT);
+    waitpid(pid_, nullptr, 0);
+  }
+
+  /// Processor time so far [s].
+  double seconds() const {
+    std::ifstream file(fmt::format("/proc/{}/stat", pid_));
+    std::string text(std::istreambuf_iterator<char>(file), {});
+    std::istringstream fields(text.substr(text.rfind(')') + 2));
+    const std::vector<std::string> words{std::istream_iterator<std::string>(fields), {}};
+    return (std::stod(words[11]) + std::stod(words[12])) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+
+ private:
+  pid_t pid_;
+};
+
+struct Scene {
+  std::string name;
+  int columns, rows;  ///< of the image; 0: no clouds
+  double width;       ///< that it sees, of the map's 2 m [m]
+  double ripples;     ///< height of ripples of 10 cm that migrate at 3 cm/min [m]
+  bool incremental;
+  bool heard;
+};
+
+sensor_msgs::PointCloud2 cloud_of(const Scene& scene, double time, std::uint64_t number) {
+  RandomStream random(1, number);
+  PointCloud cloud;
+  for (int v = 0; v < scene.rows; ++v)
+    for (int u = 0; u < scene.columns; ++u) {
+      const double x = scene.width * ((u + 0.5) / scene.columns - 0.5);
+      const double y = scene.width * ((v + 0.5) / scene.rows - 0.5);
+      const double bed = scene.ripples / 2 * std::sin(2 * M_PI * (x - 0.0005 * time) / 0.1);
+      cloud.push_back(static_cast<float>(x), static_cast<float>(y),
+                      static_cast<float>(height_of_sensor - bed + noise * random.normal()));
+    }
+  sensor_msgs::PointCloud2 message = to_message(cloud, static_cast<std::size_t>(scene.columns));
+  message.header.frame_id = "camera";
+  return message;
+}
+
+void send_pose(tf2_ros::StaticTransformBroadcaster& broadcaster) {
+  geometry_msgs::TransformStamped pose;
+  pose.header.stamp = ros::Time::now();
+  pose.header.frame_id = "map";
+  pose.child_frame_id = "camera";
+  pose.transform.translation.z = height_of_sensor;
+  pose.transform.rotation.x = 1;
+  broadcaster.sendTransform(pose);
+}
+
+void measure(const Scene& scene, ros::NodeHandle& node) {
+  Child mapper({std::string(AEOLIAN_BIN) + "/height_mapper", "_cell_size:=0.002", "_min_x:=-1", "_min_y:=-1",
+                "_length_x:=2", "_length_y:=2", "_range_sigma:=" + std::to_string(noise),
+                fmt::format("_incremental:={}", scene.incremental)});
+  ros::Publisher points = node.advertise<sensor_msgs::PointCloud2>("points", 4);
+  while (ros::ok() && points.getNumSubscribers() == 0) ros::WallDuration(0.1).sleep();
+
+  std::size_t messages = 0;
+  double bytes = 0;
+  const boost::function<void(const grid_map_msgs::GridMap::ConstPtr&)> count =
+      [&](const grid_map_msgs::GridMap::ConstPtr& map) {
+        ++messages;
+        for (const auto& layer : map->data) bytes += 4.0 * static_cast<double>(layer.data.size());
+      };
+  std::vector<ros::Subscriber> listeners;
+  if (scene.heard)
+    for (const char* topic : {"height_map", "height_map_updates"})
+      listeners.push_back(node.subscribe<grid_map_msgs::GridMap>(topic, 1000, count));
+
+  std::vector<sensor_msgs::PointCloud2> clouds;
+  const int variants = scene.ripples > 0 ? warm_up + measured : 20;
+  if (scene.columns > 0 && scene.ripples == 0)
+    for (int i = 0; i < variants; ++i) clouds.push_back(cloud_of(scene, 0, static_cast<std::uint64_t>(i)));
+  double before = 0;
+  ros::WallRate tick(rate);
+  for (int i = 0; i < warm_up + measured && ros::ok(); ++i) {
+    if (i == warm_up) {
+      before = mapper.seconds();
+      messages = 0;
+      bytes = 0;
+    }
+    if (scene.columns > 0) {
+      sensor_msgs::PointCloud2 moving;
+      if (scene.ripples > 0) moving = cloud_of(scene, i / rate, static_cast<std::uint64_t>(i));
+      sensor_msgs::PointCloud2& cloud =
+          scene.ripples > 0 ? moving : clouds[static_cast<std::size_t>(i) % clouds.size()];
+      cloud.header.stamp = ros::Time(1700000000) + ros::Duration(i / rate);
+      points.publish(cloud);
+    }
+    ros::spinOnce();
+    tick.sleep();
+  }
+  ros::spinOnce();
+  const double seconds = measured / rate;
+  std::printf("| %-44s | %7d | %5.1f | %6.1f | %6.1f |\n", scene.name.c_str(), scene.columns * scene.rows,
+              100 * (mapper.seconds() - before) / seconds, static_cast<double>(messages) / seconds,
+              1e-6 * bytes / seconds);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string port = std::to_string(20000 + getpid() % 20000);
+  setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port).c_str(), 1);
+  const Child master({"roscore", "-p", port});
+  ros::init(argc, argv, "live_mapper_bench", ros::init_options::NoSigintHandler);
+  while (!ros::master::check()) usleep(100000);
+  ros::NodeHandle node;
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  send_pose(broadcaster);
+
+  std::printf(
+      "| scene, 1000 x 1000 cells, 10 Hz | points | %% of a core | maps/s | MB/s |\n|---|---|---|---|---|\n");
+  const std::vector<Scene> scenes{
+      {"no clouds", 0, 0, 2, 0, true, true},
+      {"still, a lidar's", 200, 150, 2, 0, true, true},
+      {"still, over the map", 640, 480, 2, 0, true, true},
+      {"still, over a sixth of the map", 640, 480, 0.8, 0, true, true},
+      {"still, over the map, whole maps", 640, 480, 2, 0, false, true},
+      {"still, over the map, nobody listens", 640, 480, 2, 0, true, false},
+      {"ripples migrate, over the map", 640, 480, 2, 0.005, true, true},
+  };
+  for (const Scene& scene : scenes) measure(scene, node);
+  return 0;
+}

@@ -1,0 +1,102 @@
+/// surface_display as a program: what it draws of whole maps and parts, and when it draws nothing.
+#include "ros_test.hpp"
+#include <grid_map_msgs/GridMap.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "aeolian_core/surface/submap.hpp"
+#include "aeolian_twin/nodes/conversions.hpp"
+
+namespace aeolian {
+namespace {
+
+using sensor_msgs::PointCloud2;
+
+const GridGeometry grid(0, 0, 0.01, 100, 70);
+
+HeightMap slope(float raised = 0) {
+  HeightMap map(grid);
+  HeightMap::Layer& elevation = map.add(layer::elevation);
+  for (std::size_t i = 0; i < elevation.size(); ++i)
+    elevation[i] = raised + 0.001F * static_cast<float>(grid.cell_at(i).x);
+  return map;
+}
+
+class SurfaceDisplayTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(
+        wait_until([&] { return whole_.getNumSubscribers() > 0 && updates_.getNumSubscribers() > 0; }));
+  }
+
+  void send(const ros::Publisher& publisher, const HeightMap& map, double stamp) {
+    std_msgs::Header header;
+    header.frame_id = "map";
+    header.stamp = ros::Time(stamp);
+    publisher.publish(to_message(map, header));
+  }
+  static float z_of(const PointCloud2& cloud, int x, int y) {
+    sensor_msgs::PointCloud2ConstIterator<float> z(cloud, "z");
+    z += static_cast<int>(grid.index(x, y));
+    return *z;
+  }
+
+  ros::NodeHandle nh_;
+  ros::Publisher whole_ = nh_.advertise<grid_map_msgs::GridMap>("map", 10);
+  ros::Publisher updates_ = nh_.advertise<grid_map_msgs::GridMap>("map_updates", 100);
+};
+
+TEST_F(SurfaceDisplayTest, OneWhoStartsToLookGetsTheLastPictureAndThenWhatChanges) {
+  send(whole_, slope(), 1);
+  send(updates_, submap(slope(0.5F), {0, 32, 0, 32}), 2);
+  wait_until([] { return false; }, 0.5);
+
+  Listener<PointCloud2> clouds(nh_, "cloud");
+  Listener<visualization_msgs::MarkerArray> meshes(nh_, "mesh");
+  ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 1 && meshes.messages.size() == 1; }));
+  EXPECT_EQ(clouds.messages[0]->header.stamp, ros::Time(2));
+  EXPECT_EQ(clouds.messages[0]->width, grid.size());
+  EXPECT_GT(z_of(*clouds.messages[0], 31, 31), 0.5F);
+  EXPECT_LT(z_of(*clouds.messages[0], 32, 31), 0.5F);
+  ASSERT_EQ(meshes.messages[0]->markers.size(), 2U);
+  EXPECT_EQ(meshes.messages[0]->markers[1].text.find("Measured, dark "), 0U);
+
+  send(whole_, slope(0.5F), 3);
+  ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 2 && meshes.messages.size() == 2; }));
+  EXPECT_GT(z_of(*clouds.messages[1], 99, 69), 0.5F);
+  for (double stamp = 4; stamp < 7; ++stamp) {
+    send(whole_, slope(0.5F), stamp);
+    send(updates_, submap(slope(0.5F), {0, 32, 0, 32}), stamp);
+  }
+  EXPECT_FALSE(wait_until([&] { return clouds.messages.size() > 2 || meshes.messages.size() > 2; }, 0.5))
+      << "nothing has changed";
+  for (const CellRange& range : {CellRange{0, 32, 0, 32}, CellRange{64, 96, 0, 32}, CellRange{0, 32, 32, 64}})
+    send(updates_, submap(slope(0.25F), range), 8);
+  ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 3 && meshes.messages.size() == 3; }));
+  EXPECT_EQ(clouds.messages[2]->header.stamp, ros::Time(8));
+  EXPECT_FALSE(wait_until([&] { return clouds.messages.size() > 3; }, 0.3)) << "one change, one picture";
+  EXPECT_LT(z_of(*clouds.messages[2], 31, 63), 0.5F);
+}
+
+TEST_F(SurfaceDisplayTest, SaysWhichLayerIsMissing) {
+  Diagnostics diagnostics(nh_);
+  Listener<PointCloud2> clouds(nh_, "cloud");
+  ASSERT_TRUE(wait_until([&] { return clouds.connected(); }));
+  HeightMap map(grid);
+  map.add("depth", 1);
+  send(whole_, map, 100);
+  EXPECT_TRUE(diagnostics.warns("surface_display", "'elevation'"));
+  send(whole_, slope(), 101);
+  EXPECT_TRUE(diagnostics.is_well("surface_display"));
+}
+
+}  // namespace
+}  // namespace aeolian
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "surface_display_rostest");
+  const ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
