@@ -13,6 +13,7 @@
 #include "aeolian_core/measure/biweights.hpp"
 #include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/quiet_pcl.hpp"
 
 namespace aeolian {
 namespace {
@@ -38,9 +39,11 @@ Plane most_common_plane(const Points& points) {
   for (const Eigen::Vector3d& p : points)
     cloud->emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   const auto model = std::make_shared<pcl::SampleConsensusModelPlane<Point>>(cloud, false);
-  pcl::LeastMedianSquares<Point> search(model);
+  constexpr double any = 1;  // PCL wants a threshold, for a list of inliers that is not used here
+  pcl::LeastMedianSquares<Point> search(model, any);
   search.setMaxIterations(trials);
   Eigen::VectorXf plane;
+  const QuietPcl quiet;
   if (search.computeModel()) search.getModelCoefficients(plane);
   if (plane.size() != 4 || !plane.allFinite())
     throw Error("bed frame: the points of the cloud lie on a line, must be spread over the bed");

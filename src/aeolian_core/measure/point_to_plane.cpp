@@ -15,11 +15,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double signal_to_noise = 2;  // of slopes that hold
 
-std::vector<double> weights_of(const std::vector<PointOnPlane>& pairs) {
+std::vector<double> weights_of(const std::vector<PointOnPlane>& pairs, double farthest) {
   std::vector<double> distances;
   distances.reserve(pairs.size());
   for (const PointOnPlane& pair : pairs) distances.push_back(pair.residual);
-  return biweights(std::move(distances));
+  return biweights(std::move(distances), farthest);
 }
 
 Vector6 row(const PointOnPlane& pair, double arm) {
@@ -39,7 +39,7 @@ Eigen::Isometry3d move_of(const Vector6& twist, double arm) {
 
 }  // namespace
 
-HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double least_slope) {
+HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double farthest, double least_slope) {
   HeldDirections held;
   double squares = 0;
   for (const PointOnPlane& pair : pairs) squares += pair.point.squaredNorm();
@@ -48,7 +48,7 @@ HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double le
   Matrix6 normal_matrix = Matrix6::Zero();
   Matrix6 noise = Matrix6::Zero();
   double total = 0;
-  const std::vector<double> weights = weights_of(pairs);
+  const std::vector<double> weights = weights_of(pairs, farthest);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PointOnPlane& pair = pairs[i];
     const Vector6 full = row(pair, held.arm);
@@ -73,10 +73,11 @@ HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double le
   return held;
 }
 
-Eigen::Isometry3d step_to_planes(const std::vector<PointOnPlane>& pairs, const HeldDirections& held) {
+Eigen::Isometry3d step_to_planes(const std::vector<PointOnPlane>& pairs, double farthest,
+                                 const HeldDirections& held) {
   Matrix6 normal_matrix = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
-  const std::vector<double> weights = weights_of(pairs);
+  const std::vector<double> weights = weights_of(pairs, farthest);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Vector6 full = row(pairs[i], held.arm);
     normal_matrix += weights[i] * full * full.transpose();

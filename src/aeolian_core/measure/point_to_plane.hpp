@@ -26,11 +26,12 @@ struct HeldDirections {
 /// rms slope of the relief for a slide, next to nothing for a slide along a flat bed. Held is a direction
 /// with more than `least_slope` and with twice what noise in the normals feigns: J. Zhang, M. Kaess, S. Singh
 /// (2016), "On degeneracy of optimization-based state estimation problems", ICRA, 809-816.
-HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double least_slope);
+HeldDirections held_directions(const std::vector<PointOnPlane>& pairs, double farthest, double least_slope);
 
 /// One Gauss-Newton step of the cloud towards the planes within the held directions, by least squares with
-/// biweights.
-Eigen::Isometry3d step_to_planes(const std::vector<PointOnPlane>& pairs, const HeldDirections& held);
+/// biweights that end at `farthest` [m].
+Eigen::Isometry3d step_to_planes(const std::vector<PointOnPlane>& pairs, double farthest,
+                                 const HeldDirections& held);
 
 /// The part of a small move about the origin that lies in the held directions.
 Eigen::Isometry3d held_part(const Eigen::Isometry3d& move, const HeldDirections& held);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <pcl/console/print.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/ndt.h>
@@ -16,6 +15,7 @@
 #include "aeolian_core/measure/map_surface.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/median.hpp"
+#include "aeolian_core/surface/quiet_pcl.hpp"
 
 namespace aeolian {
 namespace {
@@ -41,20 +41,6 @@ void check(const RegistrationParameters& p) {
   require(p.max_points >= p.min_pairs, "max_points", static_cast<double>(p.max_points), "at least min_pairs");
   require(p.max_iterations >= 1, "max_iterations", p.max_iterations, "at least 1");
 }
-
-/// While it lives PCL prints nothing of its own.
-class QuietPcl {
- public:
-  QuietPcl() : before_(pcl::console::getVerbosityLevel()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
-
- private:
-  pcl::console::VERBOSITY_LEVEL before_;
-};
 
 template <class Point>
 typename pcl::PointCloud<Point>::Ptr to_pcl(const Points& points, double scale) {
@@ -101,7 +87,7 @@ class PointsOverSurface
 /// The robust step within the held directions, as PCL's iteration asks for it.
 class StepToPlanes : public pcl::registration::TransformationEstimation<PlanePoint, PlanePoint, double> {
  public:
-  explicit StepToPlanes(const HeldDirections& held) : held_(held) {}
+  StepToPlanes(const HeldDirections& held, double farthest) : held_(held), farthest_(farthest) {}
 
   void estimateRigidTransformation(const PlaneCloud& cloud, const PlaneCloud& planes,
                                    const pcl::Correspondences& matches, Matrix4& step) const override {
@@ -114,7 +100,7 @@ class StepToPlanes : public pcl::registration::TransformationEstimation<PlanePoi
       const Eigen::Vector3d normal = plane.getNormalVector3fMap().cast<double>();
       pairs.push_back({point, normal, normal.dot(point - plane.getVector3fMap().cast<double>()), 0});
     }
-    step = step_to_planes(pairs, held_).matrix();
+    step = step_to_planes(pairs, farthest_, held_).matrix();
   }
   void estimateRigidTransformation(const PlaneCloud& cloud, const PlaneCloud& planes,
                                    Matrix4& step) const override {
@@ -135,6 +121,7 @@ class StepToPlanes : public pcl::registration::TransformationEstimation<PlanePoi
 
  private:
   HeldDirections held_;
+  double farthest_;
 };
 
 /// Nothing when it does not come to an end. Moves are of points about the local origin.
@@ -149,7 +136,7 @@ std::optional<Eigen::Isometry3d> move_by_icp(const Points& points, MapSurface& s
   icp.setInputTarget(planes);
   icp.setSearchMethodTarget(std::make_shared<pcl::search::KdTree<PlanePoint>>(), true);
   icp.setCorrespondenceEstimation(std::make_shared<PointsOverSurface>(surface, planes));
-  icp.setTransformationEstimation(std::make_shared<StepToPlanes>(held));
+  icp.setTransformationEstimation(std::make_shared<StepToPlanes>(held, p.max_distance));
   icp.setMaxCorrespondenceDistance(p.max_distance);
   icp.setMaximumIterations(p.max_iterations);
   icp.setTransformationEpsilon(step * step);
@@ -236,7 +223,7 @@ Registration register_cloud(const PointCloud& cloud, const Eigen::Isometry3d& po
     return result;
   }
 
-  const HeldDirections held = held_directions(given, parameters.least_slope);
+  const HeldDirections held = held_directions(given, parameters.max_distance, parameters.least_slope);
   result.held = static_cast<int>(held.basis.cols());
   if (result.held == 0) {
     result.reason = "the map is too rough to tell where its surface is";
