@@ -63,8 +63,8 @@ class Captures : public ::testing::Test {
   static HeightFusion empty_map() {
     FusionParameters parameters;
     parameters.sensor = kinect;
-    parameters.min_range = 0.4;
-    parameters.max_range = 4;
+    parameters.sensor.min_range = 0.4;
+    parameters.sensor.max_range = 4;
     return HeightFusion(GridGeometry(-2.5, -1.5, 0.01, 400, 300), parameters);
   }
 
