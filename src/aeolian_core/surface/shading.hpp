@@ -14,6 +14,8 @@ using Rgb = std::array<std::uint8_t, 3>;
 enum class Palette {
   sand,       ///< sequential: dark brown, ochre, pale sand
   diverging,  ///< blue below zero, white at zero, red above zero
+  viridis,    ///< sequential: dark blue, green, yellow (matplotlib's); for variance, age, counts
+  grey,       ///< one light grey: the relief alone
 };
 
 /// The colour of a value in [0, 1]; values outside are clamped, NaN gives neutral grey.
@@ -26,6 +28,13 @@ struct ValueRange {
   double high = 0;
 };
 ValueRange display_range(const HeightMap::Layer& values, Palette palette);
+
+/// Light reflected by ground of the given slopes (rise over run, eastwards and northwards) in [0, 1] under a lamp
+/// in the north-west, 45 degrees high.
+float reflected_light(float slope_east, float slope_north);
+
+/// A colour under such light relative to that on flat ground, which keeps the colour as it is.
+Rgb lit(const Rgb& colour, float light);
 
 /// Light reflected by each cell in [0, 1] under a lamp in the north-west, 45 degrees high; heights are
 /// exaggerated first. Unknown cells and those beside them count as flat.
