@@ -34,4 +34,23 @@ CellRange TileMask::range(int tx, int ty) const {
           std::min(ny_, (ty + 1) * tile_cells)};
 }
 
+std::vector<CellRange> rectangles(const TileMask& mask) {
+  std::vector<CellRange> result;
+  for (int ty = 0; ty < mask.tiles_y(); ++ty) {
+    for (int tx = 0; tx < mask.tiles_x(); ++tx) {
+      if (!mask.tile(tx, ty)) continue;
+      CellRange run = mask.range(tx, ty);
+      while (tx + 1 < mask.tiles_x() && mask.tile(tx + 1, ty)) run.x1 = mask.range(++tx, ty).x1;
+      const auto below = std::find_if(result.begin(), result.end(), [&](const CellRange& r) {
+        return r.y1 == run.y0 && r.x0 == run.x0 && r.x1 == run.x1;
+      });
+      if (below != result.end())
+        below->y1 = run.y1;
+      else
+        result.push_back(run);
+    }
+  }
+  return result;
+}
+
 }  // namespace aeolian

@@ -11,6 +11,9 @@ namespace aeolian {
 /// Half-open rectangle of cells: x0 <= x < x1, y0 <= y < y1.
 struct CellRange {
   int x0, x1, y0, y1;
+  friend bool operator==(const CellRange& a, const CellRange& b) {
+    return a.x0 == b.x0 && a.x1 == b.x1 && a.y0 == b.y0 && a.y1 == b.y1;
+  }
 };
 
 /// Which tiles of 32 x 32 cells of a grid are active. Tiles at the far edges may be smaller.
@@ -58,5 +61,9 @@ class TileMask {
   int tiles_y_ = 0;
   std::vector<std::uint8_t> active_;
 };
+
+/// Few rectangles that cover each cell of the active tiles once and no other: runs along x, joined over y
+/// where they are alike. From south to north, from west to east.
+std::vector<CellRange> rectangles(const TileMask& mask);
 
 }  // namespace aeolian

@@ -1,10 +1,12 @@
 #include "aeolian_core/surface/tile_mask.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 namespace {
@@ -61,6 +63,40 @@ TEST(TileMask, MergesMasksOfTheSameGridOnly) {
   EXPECT_EQ(mask.count(), 2);
   // The same number of tiles is not enough: tiles at the edge would hold other cells.
   EXPECT_THROW(mask.merge(TileMask(GridGeometry(0, 0, 1, 71, 33))), Error);
+}
+
+TEST(Rectangles, JoinLikeRunsOfNeighbouringRows) {
+  const GridGeometry wide(0, 0, 1, 150, 70);  // 5 x 3 tiles
+  EXPECT_TRUE(rectangles(TileMask(wide)).empty());
+  EXPECT_EQ(rectangles(TileMask(wide, true)), (std::vector<CellRange>{{0, 150, 0, 70}}));
+  TileMask two_blocks(wide);
+  for (const int ty : {0, 1})
+    for (const int tx : {0, 1, 4}) two_blocks.set_tile(tx, ty);
+  EXPECT_EQ(rectangles(two_blocks), (std::vector<CellRange>{{0, 64, 0, 64}, {128, 150, 0, 64}}));
+}
+
+TEST(Rectangles, CoverTheCellsOfActiveTilesOnceAndNoOther) {
+  const GridGeometry large(0, 0, 1, 300, 270);
+  RandomStream random(5, 0);
+  for (int round = 0; round < 50; ++round) {
+    TileMask mask(large);
+    const double share = random.uniform();
+    for (int ty = 0; ty < mask.tiles_y(); ++ty)
+      for (int tx = 0; tx < mask.tiles_x(); ++tx) mask.set_tile(tx, ty, random.uniform() < share);
+    std::vector<int> active(large.size(), 0);
+    std::vector<int> covered(large.size(), 0);
+    const auto count = [&](std::vector<int>& cells) {
+      return [&](const CellRange& r) {
+        for (int y = r.y0; y < r.y1; ++y)
+          for (int x = r.x0; x < r.x1; ++x) ++cells[large.index(x, y)];
+      };
+    };
+    mask.for_each(count(active));
+    const std::vector<CellRange> parts = rectangles(mask);
+    std::for_each(parts.begin(), parts.end(), count(covered));
+    EXPECT_EQ(covered, active);
+    EXPECT_LE(parts.size(), static_cast<std::size_t>(mask.count()));
+  }
 }
 
 TEST(TileMask, OfNoGridIsEmpty) { EXPECT_TRUE(TileMask().empty()); }
