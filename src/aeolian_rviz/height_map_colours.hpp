@@ -38,10 +38,12 @@ class HeightMapColours {
               const CellRange& range, Rgba* out, int pitch) const;
 
  private:
-  Rgb plain(float value) const;
+  /// The colour of a known neighbour of an unknown cell.
+  Rgb beside(const GridGeometry& geometry, const HeightMap::Layer& heights, const HeightMap::Layer& values,
+             int x, int y) const;
 
   Colouring colouring_;
-  std::vector<Rgb> table_;  ///< the palette, finely
+  std::vector<Rgb> table_;  ///< the palette, finely, and the colour of the unknown
 };
 
 /// The texture of half the size: each colour is the mean of those of four that are not transparent, transparent

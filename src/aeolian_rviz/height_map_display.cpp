@@ -62,8 +62,7 @@ void HeightMapDisplay::make_look_properties() {
       "Colour Layer", QString::fromStdString(layer::elevation), "Layer that gives the colours.", this,
       SLOT(change_look()));
   for (rviz::EditableEnumProperty* property : {height_layer_, colour_layer_})
-    connect(property, SIGNAL(requestOptions(rviz::EditableEnumProperty*)), this,
-            SLOT(offer_layers(rviz::EditableEnumProperty*)));
+    connect(property, &rviz::EditableEnumProperty::requestOptions, this, &HeightMapDisplay::offer_layers);
   palette_ = new rviz::EnumProperty(
       "Palette", "Sand",
       "Sand for heights, diverging (blue below zero, red above) for differences, viridis for other values, grey "

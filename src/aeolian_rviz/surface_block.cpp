@@ -26,10 +26,17 @@ std::string unique_name() {
 /// rviz has no group for textures and materials of others but Ogre's default.
 const std::string& group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
 
+constexpr Ogre::PixelFormat pixel_format = Ogre::PF_BYTE_RGBA;
+
+/// The texels of the next level that depend on a range.
+CellRange halved(const CellRange& range) {
+  return {range.x0 / 2, (range.x1 + 1) / 2, range.y0 / 2, (range.y1 + 1) / 2};
+}
+
 Ogre::TexturePtr make_texture(int levels) {
   return Ogre::TextureManager::getSingleton().createManual(
       unique_name(), group(), Ogre::TEX_TYPE_2D, block_vertices, block_vertices, levels - 1,
-      Ogre::PF_BYTE_RGBA, Ogre::TU_DYNAMIC_WRITE_ONLY);
+      pixel_format, Ogre::TU_DYNAMIC_WRITE_ONLY);
 }
 
 Ogre::MaterialPtr make_material(const Ogre::TexturePtr& texture) {
@@ -93,55 +100,60 @@ SurfaceBlock::~SurfaceBlock() {
   Ogre::TextureManager::getSingleton().remove(texture_->getName(), group());
 }
 
-void SurfaceBlock::update(const GridGeometry& geometry, const HeightMap::Layer& heights,
-                          const HeightMap::Layer& values, const HeightMapColours& colours,
-                          const CellRange& part, double base) {
+void SurfaceBlock::take(const GridGeometry& geometry, const HeightMap::Layer& heights,
+                        const HeightMap::Layer& values, const HeightMapColours& colours, const CellRange& part,
+                        double base) {
   const std::vector<VertexState> before = vertices_.states;
   vertices_.take(geometry, heights, cells_, part, base);
   const bool known_before = known_;
   known_ = std::find(vertices_.states.begin(), vertices_.states.end(), VertexState::known) !=
            vertices_.states.end();
   triangles_are_old_ |= vertices_.states != before;
+  if (!known_) return;
+  const CellRange& drawn = known_before ? part : cells_;
+  taken_ = {drawn.x0 - cells_.x0, drawn.x1 - cells_.x0, drawn.y0 - cells_.y0, drawn.y1 - cells_.y0};
+  colours.colour(geometry, heights, values, drawn, &texels_[0][BlockCells::index(taken_.x0, taken_.y0)],
+                 block_vertices);
+  CellRange finer = taken_;
+  for (std::size_t level = 0; level + 1 < texels_.size(); ++level) {
+    halve(texels_[level].data(), block_vertices >> level, finer, texels_[level + 1].data());
+    finer = halved(finer);
+  }
+}
+
+void SurfaceBlock::upload(const GridGeometry& geometry) {
   if (!known_) {
     mRenderOp.indexData->indexCount = 0;
     return;
   }
-  const CellRange& drawn = known_before ? part : cells_;
-  upload_vertices(geometry, drawn);
-  const CellRange local{drawn.x0 - cells_.x0, drawn.x1 - cells_.x0, drawn.y0 - cells_.y0,
-                        drawn.y1 - cells_.y0};
-  colours.colour(geometry, heights, values, drawn, &texels_[0][BlockCells::index(local.x0, local.y0)],
-                 block_vertices);
-  upload_colours(local);
+  upload_vertices(geometry);
+  upload_colours();
   set_bounds(geometry);
 }
 
-void SurfaceBlock::upload_vertices(const GridGeometry& geometry, const CellRange& part) {
+void SurfaceBlock::upload_vertices(const GridGeometry& geometry) {
   std::vector<float> rows;
-  rows.reserve(floats_of_a_position * static_cast<std::size_t>((part.y1 - part.y0) * block_vertices));
-  for (int y = part.y0; y < part.y1; ++y)
+  rows.reserve(floats_of_a_position * static_cast<std::size_t>((taken_.y1 - taken_.y0) * block_vertices));
+  for (int y = taken_.y0; y < taken_.y1; ++y)
     for (int x = 0; x < block_vertices; ++x) {
       rows.push_back(static_cast<float>((cells_.x0 + x + 0.5) * geometry.cell()));
-      rows.push_back(static_cast<float>((y + 0.5) * geometry.cell()));
-      rows.push_back(vertices_.heights[BlockCells::index(x, y - cells_.y0)]);
+      rows.push_back(static_cast<float>((cells_.y0 + y + 0.5) * geometry.cell()));
+      rows.push_back(vertices_.heights[BlockCells::index(x, y)]);
     }
   const std::size_t bytes_of_a_row = floats_of_a_position * sizeof(float) * block_vertices;
-  positions_->writeData(static_cast<std::size_t>(part.y0 - cells_.y0) * bytes_of_a_row,
-                        rows.size() * sizeof(float), rows.data());
+  positions_->writeData(static_cast<std::size_t>(taken_.y0) * bytes_of_a_row, rows.size() * sizeof(float),
+                        rows.data());
 }
 
-void SurfaceBlock::upload_colours(const CellRange& local) {
-  CellRange part = local;
+void SurfaceBlock::upload_colours() {
+  CellRange part = taken_;
   for (std::size_t level = 0; level < texels_.size(); ++level) {
-    const int size = block_vertices >> level;
-    const auto side = static_cast<Ogre::uint32>(size);
-    const auto edge = [](int i) { return static_cast<Ogre::uint32>(i); };
-    Ogre::PixelBox all(side, side, 1, Ogre::PF_BYTE_RGBA, texels_[level].data());
-    const Ogre::Box box(edge(part.x0), edge(part.y0), edge(part.x1), edge(part.y1));
+    const auto count = [](int i) { return static_cast<Ogre::uint32>(i); };
+    const Ogre::PixelBox all(count(block_vertices >> level), count(block_vertices >> level), 1, pixel_format,
+                             texels_[level].data());
+    const Ogre::Box box(count(part.x0), count(part.y0), count(part.x1), count(part.y1));
     texture_->getBuffer(0, level)->blitFromMemory(all.getSubVolume(box, false), box);
-    if (size == 1) break;
-    halve(texels_[level].data(), size, part, texels_[level + 1].data());
-    part = {part.x0 / 2, (part.x1 + 1) / 2, part.y0 / 2, (part.y1 + 1) / 2};
+    part = halved(part);
   }
 }
 

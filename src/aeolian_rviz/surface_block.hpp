@@ -24,9 +24,12 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
   SurfaceBlock(const CellRange& cells, const Ogre::HardwareVertexBufferSharedPtr& texture_coordinates);
   ~SurfaceBlock() override;
 
-  /// Takes heights and colours of a part of its cells. Places are relative to the map's corner and to `base` [m].
-  void update(const GridGeometry& geometry, const HeightMap::Layer& heights, const HeightMap::Layer& values,
-              const HeightMapColours& colours, const CellRange& part, double base);
+  /// Takes heights and colours of a part of its cells, for the next upload. Places are relative to the map's corner
+  /// and to `base` [m]. Blocks may do so at the same time.
+  void take(const GridGeometry& geometry, const HeightMap::Layer& heights, const HeightMap::Layer& values,
+            const HeightMapColours& colours, const CellRange& part, double base);
+  /// Moves what was taken into the buffers.
+  void upload(const GridGeometry& geometry);
   /// Takes effect at once; costs nothing when neither levels nor holes have changed.
   void set_levels(const BlockLevels& levels);
   /// 0 (not to be seen) to 1.
@@ -42,17 +45,18 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
  private:
-  void upload_vertices(const GridGeometry& geometry, const CellRange& part);
-  void upload_colours(const CellRange& local);
+  void upload_vertices(const GridGeometry& geometry);
+  void upload_colours();
   void set_bounds(const GridGeometry& geometry);
 
   CellRange cells_;
+  CellRange taken_{0, 0, 0, 0};  ///< not uploaded yet, from the block's first cell
   BlockCells vertices_;
   std::vector<std::vector<Rgba>> texels_;  ///< a level of the texture each, the finest first
   Ogre::HardwareVertexBufferSharedPtr positions_;
   Ogre::TexturePtr texture_;
   BlockLevels levels_;
-  bool known_ = false;             ///< some cell's height is
+  bool known_ = false;  ///< some cell's height is
   bool triangles_are_old_ = true;
 };
 

@@ -7,6 +7,7 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
+#include <tbb/parallel_for.h>
 
 namespace aeolian {
 namespace {
@@ -57,9 +58,14 @@ void SurfaceMesh::update(const GridGeometry& geometry, const HeightMap::Layer& h
   if (anew) rebuild(geometry, heights);
   const HeightMapColours colours(colouring);
   const TileMask all = anew ? TileMask(geometry, true) : TileMask();
+  std::vector<std::pair<SurfaceBlock*, CellRange>> work;
   for (const Part& part : parts_)
     if (const auto cells = changed_part(anew ? all : changed, part.block->cells()))
-      part.block->update(geometry, heights, values, colours, *cells, base_);
+      work.emplace_back(part.block.get(), *cells);
+  tbb::parallel_for(std::size_t{0}, work.size(), [&](std::size_t i) {
+    work[i].first->take(geometry, heights, values, colours, work[i].second, base_);
+  });
+  for (const auto& [block, cells] : work) block->upload(geometry);  // OpenGL is this thread's alone
 }
 
 void SurfaceMesh::place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation,

@@ -34,10 +34,6 @@ Rgb interpolated(const std::array<Rgb, Count>& stops, double value) {
   return result;
 }
 
-constexpr float sin_45 = 0.70710678F;
-/// Light reflected by flat ground under a lamp 45 degrees high.
-constexpr float flat = sin_45;
-
 }  // namespace
 
 Rgb colour(Palette palette, double value) {
@@ -73,31 +69,11 @@ ValueRange display_range(const HeightMap::Layer& values, Palette palette) {
   return {-bound, bound};
 }
 
-float reflected_light(float slope_east, float slope_north) {
-  // Unit normal (-dx, -dy, 1) / |.| times the direction to the lamp (-1/2, 1/2, sin 45).
-  const float towards = (0.5F * slope_east - 0.5F * slope_north + sin_45) /
-                        std::sqrt(1 + slope_east * slope_east + slope_north * slope_north);
-  return std::clamp(towards, 0.0F, 1.0F);
-}
-
-Rgb lit(const Rgb& colour, float light) {
-  constexpr float darkest = 0.2F;
-  constexpr float whitest = 0.6F;
-  const float relative = light / flat;
-  // Bright slopes go towards white instead of saturating one channel after another, which would change the hue.
-  const float factor = relative <= 1 ? darkest + (1 - darkest) * relative : 1 - whitest * (relative - 1);
-  const float added = relative <= 1 ? 0 : 255 * (1 - factor);
-  Rgb result{};
-  for (std::size_t c = 0; c < 3; ++c)
-    result[c] = static_cast<std::uint8_t>(static_cast<float>(colour[c]) * factor + added);
-  return result;
-}
-
 std::vector<float> hill_shade(const GridGeometry& geometry, const HeightMap::Layer& elevation,
                               double exaggeration) {
   const int nx = geometry.nx();
   const int ny = geometry.ny();
-  std::vector<float> shade(geometry.size(), flat);
+  std::vector<float> shade(geometry.size(), flat_light);
   for (int y = 0; y < ny; ++y) {
     const int south = std::max(y - 1, 0);
     const int north = std::min(y + 1, ny - 1);
@@ -126,7 +102,10 @@ std::vector<Rgb> shaded_colours(const GridGeometry& geometry, const HeightMap::L
     const double value = static_cast<double>(values[i]);
     const double share = width > 0 ? (value - range.low) / width : value * 0 + 0.5;
     result[i] = colour(palette, share);
-    if (std::isfinite(values[i])) result[i] = lit(result[i], shade[i]);
+    if (!std::isfinite(values[i])) continue;
+    const Lighting light = lighting(shade[i]);
+    for (std::uint8_t& channel : result[i])
+      channel = static_cast<std::uint8_t>(static_cast<float>(channel) * light.factor + light.white);
   }
   return result;
 }
