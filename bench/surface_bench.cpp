@@ -1,7 +1,9 @@
-// The walks over whole maps and clouds that every run makes: reading text clouds, resampling, hill shading.
+// The walks over whole maps and clouds that every run makes: reading text clouds, resampling, hill shading,
+// finding what has changed.
 // `times_copy`: how many times as long as copying the bytes that must be read, the least that any such walk
 // must do.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -13,9 +15,11 @@
 #include <unistd.h>
 
 #include "aeolian_core/surface/cloud_file.hpp"
+#include "aeolian_core/surface/held_map.hpp"
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/surface/shading.hpp"
+#include "aeolian_core/surface/unseen_changes.hpp"
 
 namespace {
 
@@ -85,9 +89,39 @@ void hill_shade(benchmark::State& state) {
           [&] { return aeolian::hill_shade(map.geometry(), elevation); });
 }
 
+/// All tiles of 1000 x 1000 cells touched, none or all of them notably changed.
+void unseen_changes(benchmark::State& state, float step) {
+  const GridGeometry grid(0, 0, 0.002, 1000, 1000);
+  HeightMap map(grid);
+  HeightMap::Layer& elevation = map.add(aeolian::layer::elevation, 0);
+  map.add(aeolian::layer::variance, 1e-6F);
+  aeolian::UnseenChanges unseen(grid);
+  const aeolian::TileMask touched(grid, true);
+  unseen.take(map, touched);
+  for (float& z : elevation) z += step;
+  HeightMap back = map;
+  std::fill(back.layer(aeolian::layer::elevation).begin(), back.layer(aeolian::layer::elevation).end(), 0.0F);
+  bool there = true;
+  measure(state, grid.size(), 4 * grid.size() * sizeof(float), [&] {
+    there = !there;
+    return unseen.take(there ? back : map, touched);
+  });
+}
+
+void differing_tiles(benchmark::State& state) {
+  const HeightMap map = rough_map();
+  const HeightMap same = map;
+  measure(state, map.geometry().size(), 2 * map.geometry().size() * sizeof(float), [&] {
+    return aeolian::differing_tiles(map, {0, side, 0, side}, same);
+  });
+}
+
 BENCHMARK(read_text_cloud)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(resample, half_the_cell, 0.001, 2 * side)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(resample, two_and_a_half_cells, 0.005, side * 2 / 5)->Unit(benchmark::kMillisecond);
 BENCHMARK(hill_shade)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(unseen_changes, none_notable, 0.0004F)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(unseen_changes, all_notable, 0.0006F)->Unit(benchmark::kMillisecond);
+BENCHMARK(differing_tiles)->Unit(benchmark::kMillisecond);
 
 }  // namespace

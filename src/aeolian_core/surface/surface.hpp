@@ -21,3 +21,4 @@
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_core/surface/submap.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
+#include "aeolian_core/surface/unseen_changes.hpp"

@@ -1,29 +1,37 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <grid_map_msgs/GridMap.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
+#include <ros/wall_timer.h>
 
-#include "aeolian_core/surface/height_map.hpp"
-#include "aeolian_core/surface/tile_mask.hpp"
+#include "aeolian_core/surface/held_map.hpp"
 
 namespace aeolian {
 
 /// Keeps the map that a node publishes: whole maps on `topic`, what changed of them on `topic`_updates (grid
-/// maps of a part of the cells, the same layers). Tells after each message which tiles differ from before.
+/// maps of a part of the cells, the same layers). Tells after each message which tiles differ from before;
+/// parts of one stamp are one change, which is told when all have come.
+///
+/// The publisher sends the whole map to each new subscriber of either topic, and on both when its grid is
+/// new. A publisher without updates is understood as well.
 class MapReceiver {
  public:
-  /// The whole map after a message, its header and the tiles that hold a value that differs from before (all
-  /// tiles when the grid or the layers are new).
+  /// The whole map, its header and the tiles that hold a value that differs from before (all tiles when the
+  /// grid or the layers are new; none when the map is confirmed).
   using Taken =
       std::function<void(const HeightMap& map, const std_msgs::Header& header, const TileMask& changed)>;
-  /// One line about a message that is no map, or a part that fits none; the last map is kept.
+  /// One line, with the topic, about a message that is no map or is not accepted; the last map is kept.
   using Refused = std::function<void(const std::string& reason)>;
+  /// Throws Error for a header that is not wanted.
+  using Accept = std::function<void(const std::string& topic, const std_msgs::Header& header)>;
 
-  MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken taken, Refused refused);
+  MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken taken, Refused refused,
+              Accept accept = {});
   MapReceiver(const MapReceiver&) = delete;
   MapReceiver& operator=(const MapReceiver&) = delete;
 
@@ -31,12 +39,23 @@ class MapReceiver {
   std::string topic() const { return whole_.getTopic(); }
 
  private:
-  void take_whole(const grid_map_msgs::GridMap::ConstPtr& message);
-  void take_part(const grid_map_msgs::GridMap::ConstPtr& message);
+  using Message = grid_map_msgs::GridMap;
+
+  void take_whole(const Message& message);
+  void take_part(const Message& message);
+  HeightMap decode(const Message& message, const std::string& topic) const;
+  void tell();
+  /// Does some work; an Error goes to `refused`.
+  template <class Work>
+  void guarded(Work&& work);
 
   Taken taken_;
   Refused refused_;
-  HeightMap map_;
+  Accept accept_;
+  HeldMap held_;
+  std_msgs::Header header_;           ///< of the newest message in the map
+  std::optional<TileMask> not_told_;  ///< what the parts of one stamp have changed
+  ros::WallTimer last_part_;
   ros::Subscriber whole_;
   ros::Subscriber updates_;
 };
