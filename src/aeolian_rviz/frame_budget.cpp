@@ -12,8 +12,6 @@ constexpr double finest_quad_pixels = 3;
 constexpr int coarsest_step = 8;  // 48 pixels
 /// Finer quads are tried only when they are reckoned to stay this far below what is allowed.
 constexpr double room = 0.8;
-/// A triangle is never reckoned to be cheaper than this share of the frame's time for each.
-constexpr double least_share = 0.05;
 
 }  // namespace
 
@@ -32,9 +30,8 @@ void FrameBudget::add_frame(double seconds, const Triangles& triangles) {
   const auto last = static_cast<double>(last_triangles_);
   // At most the whole frame; less once two counts have told the constant from the triangles.
   const double most = median_ / count;
-  if (triangle_seconds_ == 0) triangle_seconds_ = most;
-  if (before > 0 && std::abs(count - last) > 0.3 * last)
-    triangle_seconds_ = std::max((median_ - before) / (count - last), least_share * most);
+  if (last > 0 && std::abs(count - last) > 0.3 * last)
+    triangle_seconds_ = std::max((median_ - before) / (count - last), 0.0);
   triangle_seconds_ = std::min(triangle_seconds_, most);
   last_triangles_ = now;
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace aeolian {
@@ -31,7 +32,7 @@ class FrameBudget {
   int step_ = 0;
   std::vector<double> frames_;       ///< since the last decision [s]
   double median_ = 0;                ///< [s]
-  double triangle_seconds_ = 0;      ///< cost of one triangle, 0: not known
+  double triangle_seconds_ = std::numeric_limits<double>::infinity();  ///< cost of one triangle, not known yet
   std::size_t last_triangles_ = 0;   ///< at the last decision
 };
 

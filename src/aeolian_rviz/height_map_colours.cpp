@@ -75,10 +75,11 @@ struct Row {
   void find_places(const float* values, const ValueRange& range) {
     const auto low = static_cast<float>(range.low);
     const double width = range.high - range.low;
-    const float scale = width > 0 ? static_cast<float>((table_size - 1) / width) : 0.0F;
-    const float middle = width > 0 ? 0.5F : 0.5F * table_size;  // rounds, or stays there
+    const bool empty = !(width > std::numeric_limits<float>::min());
+    const float scale = empty ? 0.0F : static_cast<float>((table_size - 1) / width);
+    const float first = empty ? 0.5F * table_size : 0.5F;  // the half rounds
     for (std::size_t i = 0; i < place.size(); ++i)
-      place[i] = finite(values[i]) ? static_cast<int>(std::clamp((values[i] - low) * scale + middle, 0.0F,
+      place[i] = finite(values[i]) ? static_cast<int>(std::clamp((values[i] - low) * scale + first, 0.0F,
                                                                  static_cast<float>(table_size - 1)))
                                    : table_size;
   }

@@ -227,7 +227,8 @@ void HeightMapDisplay::update(float wall_dt, float /*ros_dt*/) {
     centre = {grid.origin_x() + grid.length_x() / 2, grid.origin_y() + grid.length_y() / 2};
   }
   place(*next, centre);
-  next->mesh().set_visible(true);
+  // Mesa's software renderer writes beyond the picture of a window that is being closed.
+  next->mesh().set_visible(context_->getViewManager()->getRenderPanel()->isVisible());
   other->mesh().set_visible(false);
   const bool turned = seen_ != next;
   seen_ = next;
