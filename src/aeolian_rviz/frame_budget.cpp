@@ -12,6 +12,8 @@ constexpr double finest_quad_pixels = 3;
 constexpr int coarsest_step = 8;  // 48 pixels
 /// Finer quads are tried only when they are reckoned to stay this far below what is allowed.
 constexpr double room = 0.8;
+/// [s]. A software renderer's cost some 0.6e-6 s: more is another's load that came at the wrong moment.
+constexpr double dearest_triangle = 1e-6;
 
 }  // namespace
 
@@ -32,7 +34,7 @@ void FrameBudget::add_frame(double seconds, const Triangles& triangles) {
   const double most = median_ / count;
   if (last > 0 && std::abs(count - last) > 0.3 * last)
     triangle_seconds_ = std::max((median_ - before) / (count - last), 0.0);
-  triangle_seconds_ = std::min(triangle_seconds_, most);
+  triangle_seconds_ = std::min({triangle_seconds_, most, dearest_triangle});
   last_triangles_ = now;
 
   // Where others take the budget, drawing badly would not save the frame.

@@ -109,6 +109,7 @@ void SurfaceBlock::take(const GridGeometry& geometry, const HeightMap::Layer& he
   known_ = std::find(vertices_.states.begin(), vertices_.states.end(), VertexState::known) !=
            vertices_.states.end();
   triangles_are_old_ |= vertices_.states != before;
+  holes_ = holds_unknown();
   if (!known_) return;
   const CellRange& drawn = known_before ? part : cells_;
   taken_ = {drawn.x0 - cells_.x0, drawn.x1 - cells_.x0, drawn.y0 - cells_.y0, drawn.y1 - cells_.y0};
@@ -121,11 +122,19 @@ void SurfaceBlock::take(const GridGeometry& geometry, const HeightMap::Layer& he
   }
 }
 
+bool SurfaceBlock::holds_unknown() const {
+  for (int y = 0; y < cells_.y1 - cells_.y0; ++y)
+    for (int x = 0; x < cells_.x1 - cells_.x0; ++x)
+      if (vertices_.states[BlockCells::index(x, y)] != VertexState::known) return true;
+  return false;
+}
+
 void SurfaceBlock::upload(const GridGeometry& geometry) {
   if (!known_) {
     mRenderOp.indexData->indexCount = 0;
     return;
   }
+  set_transparency();
   upload_vertices(geometry);
   upload_colours();
   set_bounds(geometry);
@@ -179,11 +188,23 @@ void SurfaceBlock::set_levels(const BlockLevels& levels) {
 }
 
 void SurfaceBlock::set_alpha(float alpha) {
+  alpha_ = alpha;
+  set_transparency();
+}
+
+void SurfaceBlock::set_transparency() {
   Ogre::Pass* pass = mMaterial->getTechnique(0)->getPass(0);
-  pass->getTextureUnitState(0)->setAlphaOperation(Ogre::LBX_MODULATE, Ogre::LBS_TEXTURE, Ogre::LBS_MANUAL, 1,
-                                                  alpha);
-  pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, static_cast<unsigned char>(127 * alpha));
-  pass->setSceneBlending(alpha < 1 ? Ogre::SBT_TRANSPARENT_ALPHA : Ogre::SBT_REPLACE);
+  Ogre::TextureUnitState* unit = pass->getTextureUnitState(0);
+  if (alpha_ < 1)
+    unit->setAlphaOperation(Ogre::LBX_MODULATE, Ogre::LBS_TEXTURE, Ogre::LBS_MANUAL, 1, alpha_);
+  else
+    unit->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE, Ogre::LBS_CURRENT);
+  // The test makes a software renderer slower by half.
+  if (holes_)
+    pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, static_cast<unsigned char>(127 * alpha_));
+  else
+    pass->setAlphaRejectFunction(Ogre::CMPF_ALWAYS_PASS);
+  pass->setSceneBlending(alpha_ < 1 ? Ogre::SBT_TRANSPARENT_ALPHA : Ogre::SBT_REPLACE);
 }
 
 std::size_t SurfaceBlock::count_triangles(int level) const {

@@ -45,6 +45,8 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 
  private:
+  bool holds_unknown() const;
+  void set_transparency();
   void upload_vertices(const GridGeometry& geometry);
   void upload_colours();
   void set_bounds(const GridGeometry& geometry);
@@ -56,7 +58,9 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
   Ogre::HardwareVertexBufferSharedPtr positions_;
   Ogre::TexturePtr texture_;
   BlockLevels levels_;
+  float alpha_ = 1;
   bool known_ = false;  ///< some cell's height is
+  bool holes_ = false;  ///< some cell's is not
   bool triangles_are_old_ = true;
 };
 

@@ -39,7 +39,7 @@ TEST(FrameBudget, LeavesAFastMachineAlone) {
 }
 
 TEST(FrameBudget, DrawsCoarserUntilTheFrameFitsAndStaysThere) {
-  for (const double per_triangle : {1e-7, 5e-7, 2e-6})
+  for (const double per_triangle : {1e-7, 3e-7, 1e-6})
     for (const double constant : {0.002, 0.02}) {
       FrameBudget budget(0.04);
       const Machine machine{constant, per_triangle};
@@ -48,9 +48,17 @@ TEST(FrameBudget, DrawsCoarserUntilTheFrameFitsAndStaysThere) {
     }
 }
 
+TEST(FrameBudget, IsNotMisledForLongByALoadThatCameWithATriangleCount) {
+  FrameBudget budget(0.04);
+  settle(budget, {0.005, 3e-7});
+  const double alone = budget.quad_pixels();
+  settle(budget, {0.2, 3e-6});
+  EXPECT_EQ(settle(budget, {0.005, 3e-7}), std::set<double>{alone});
+}
+
 TEST(FrameBudget, BecomesFineAgainWhenThereIsRoom) {
   FrameBudget budget(0.04);
-  settle(budget, {0.005, 2e-6});
+  settle(budget, {0.005, 1e-6});
   EXPECT_GT(budget.quad_pixels(), 3);
   EXPECT_EQ(settle(budget, {0.001, 1e-9}), std::set<double>{3});
 }
