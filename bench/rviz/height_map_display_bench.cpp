@@ -1,7 +1,9 @@
-// How fast rviz draws maps that change ten times a second, on a screen that nobody sees and without a graphics
-// card, with rviz' anti-aliasing and without (rviz --disable-anti-aliasing). Prints a table; the numbers are wall
-// time on the machine as it is, but for the processor time of a frame, which holds all that rviz does. Starts a
-// master and a publisher of its own.
+// How fast rviz draws maps that change ten times a second, on a screen that nobody sees and without a
+// graphics card, with rviz' anti-aliasing and without (rviz --disable-anti-aliasing). Prints a table; the
+// numbers are wall time on the machine as it is, but for the processor time of a frame, which holds all that
+// rviz does. Starts a master and a publisher of its own.
+#include <QApplication>
+#include <QElapsedTimer>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -9,13 +11,12 @@
 #include <string>
 #include <vector>
 
-#include <QApplication>
-#include <QElapsedTimer>
+#include "aeolian_rviz/height_map_display.hpp"
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
-#include <rviz/properties/property.h>
 #include <rviz/ogre_helpers/render_system.h>
+#include <rviz/properties/property.h>
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_frame.h>
@@ -25,7 +26,6 @@
 #include <unistd.h>
 
 #include "aeolian_core/surface/submap.hpp"
-#include "aeolian_rviz/height_map_display.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 
 namespace aeolian {
@@ -38,9 +38,9 @@ constexpr double measured_time = 10;  // s
 
 struct Case {
   std::string name;
-  int cells;       ///< of one side
-  bool changes;    ///< everywhere, with each map; otherwise one tile does
-  bool as_parts;   ///< what changes is sent, not the whole map
+  int cells;      ///< of one side
+  bool changes;   ///< everywhere, with each map; otherwise one tile does
+  bool as_parts;  ///< what changes is sent, not the whole map
 };
 
 const std::vector<Case> cases = {
@@ -56,7 +56,8 @@ HeightMap ripples(int cells, double phase) {
   HeightMap::Layer& z = map.add(layer::elevation);
   std::vector<float> row(static_cast<std::size_t>(cells));
   for (int x = 0; x < cells; ++x)
-    row[static_cast<std::size_t>(x)] = static_cast<float>(0.005 * std::sin(2 * M_PI * x * cell_size / 0.1 - phase));
+    row[static_cast<std::size_t>(x)] =
+        static_cast<float>(0.005 * std::sin(2 * M_PI * x * cell_size / 0.1 - phase));
   for (int y = 0; y < cells; ++y) std::copy(row.begin(), row.end(), z.begin() + map.geometry().index(0, y));
   return map;
 }
@@ -75,7 +76,8 @@ HeightMap ripples(int cells, double phase) {
   for (std::size_t i = 0;; ++i, rate.sleep()) {
     HeightMap& map = maps[i % maps.size()];
     const CellRange tile{64, 96, 64, 96};
-    if (!c.changes) map.layer(layer::elevation)[map.geometry().index(70, 70)] = static_cast<float>(i % 10) * 1e-3F;
+    if (!c.changes)
+      map.layer(layer::elevation)[map.geometry().index(70, 70)] = static_cast<float>(i % 10) * 1e-3F;
     header.stamp = ros::Time::now();
     if (c.as_parts && i > 0)
       parts.publish(to_message(submap(map, tile), header));
@@ -114,7 +116,11 @@ class Bench {
     auto* display = dynamic_cast<HeightMapDisplay*>(displays.getDisplayAt(0));
     display->reset();
     // As large in the picture as the view of a map of 2 m shows it.
-    frame_.getManager()->getViewManager()->getCurrent()->subProp("Distance")->setValue(1.1 * c.cells * cell_size);
+    frame_.getManager()
+        ->getViewManager()
+        ->getCurrent()
+        ->subProp("Distance")
+        ->setValue(1.1 * c.cells * cell_size);
     spin(settling_time, *display);
     FrameClock frames;
     frames.start();
@@ -126,8 +132,8 @@ class Bench {
     const double seconds = 1e-3 * static_cast<double>(timer.elapsed());
     std::sort(ages.begin(), ages.end());
     const auto drawn = static_cast<double>(frames.frames());
-    fmt::print("| {} x {} | {} | {} | {:.1f} | {:.1f} | {:.0f} ms | {:.0f} ms | {:.0f} ms | {:.0f} | {} |\n", c.cells,
-               c.cells, c.name, smooth_ ? "yes" : "no", drawn / seconds,
+    fmt::print("| {} x {} | {} | {} | {:.1f} | {:.1f} | {:.0f} ms | {:.0f} ms | {:.0f} ms | {:.0f} | {} |\n",
+               c.cells, c.cells, c.name, smooth_ ? "yes" : "no", drawn / seconds,
                static_cast<double>(display->seen()->taken() - taken) / seconds, 1e3 * ages[ages.size() / 2],
                1e3 * ages.back(), 1e3 * (processor_seconds() - processor) / drawn, display->quad_pixels(),
                display->seen()->mesh().drawn_triangles());
@@ -200,14 +206,16 @@ int main(int argc, char** argv) {
   if (task == "--publish") publish(cases.at(std::stoul(argv[2])));
   if (task == "--draw") return draw_all(std::string(argv[2]) == "smooth");
   if (!std::getenv("DISPLAY")) {
-    execlp("xvfb-run", "xvfb-run", "-a", "-s", "-screen 0 1400x900x24 +extension GLX -nolisten tcp", argv[0], nullptr);
+    execlp("xvfb-run", "xvfb-run", "-a", "-s", "-screen 0 1400x900x24 +extension GLX -nolisten tcp", argv[0],
+           nullptr);
     std::perror("height_map_display_bench: no DISPLAY and no xvfb-run");
     return 1;
   }
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   const pid_t master = start_master();
   fmt::print(
-      "| cells | at 10 Hz | anti-aliasing | frames/s | maps/s | age of the map seen, median | worst | processor time of "
+      "| cells | at 10 Hz | anti-aliasing | frames/s | maps/s | age of the map seen, median | worst | "
+      "processor time of "
       "a frame | largest quad, pixels | triangles |\n|---|---|---|---|---|---|---|---|---|---|\n");
   std::fflush(stdout);
   const int failed = run_self("--draw", "smooth") | run_self("--draw", "plain");

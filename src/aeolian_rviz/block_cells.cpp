@@ -61,10 +61,9 @@ std::optional<CellRange> changed_part(const TileMask& changed, const CellRange& 
     for (int tx = tx0; tx < tx1; ++tx) {
       if (!changed.tile(tx, ty)) continue;
       const CellRange cells = changed.range(tx, ty);
-      const CellRange reached{std::max(cells.x0 - extension_cells, block.x0),
-                              std::min(cells.x1 + extension_cells, block.x1),
-                              std::max(cells.y0 - extension_cells, block.y0),
-                              std::min(cells.y1 + extension_cells, block.y1)};
+      const CellRange reached{
+          std::max(cells.x0 - extension_cells, block.x0), std::min(cells.x1 + extension_cells, block.x1),
+          std::max(cells.y0 - extension_cells, block.y0), std::min(cells.y1 + extension_cells, block.y1)};
       if (reached.x0 >= reached.x1 || reached.y0 >= reached.y1) continue;
       if (!part) {
         part = reached;

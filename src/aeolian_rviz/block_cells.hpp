@@ -16,14 +16,16 @@ enum class VertexState : std::uint8_t {
   known,
 };
 
-/// Blocks are drawn as squares of so many vertices, one at each cell's centre; neighbours share a row of them.
+/// Blocks are drawn as squares of so many vertices, one at each cell's centre; neighbours share a row of
+/// them.
 constexpr int block_vertices = 128;
 /// Heights are extended by so many cells into unknown ground.
 constexpr int extension_cells = 8;
 
 /// The vertices of a block, rows of `block_vertices`.
 struct BlockCells {
-  std::vector<float> heights = std::vector<float>(block_vertices * block_vertices, 0.0F);  ///< above a base [m]
+  std::vector<float> heights =
+      std::vector<float>(block_vertices * block_vertices, 0.0F);  ///< above a base [m]
   std::vector<VertexState> states =
       std::vector<VertexState>(block_vertices * block_vertices, VertexState::none);
 

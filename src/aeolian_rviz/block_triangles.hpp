@@ -25,9 +25,10 @@ struct BlockLevels {
   }
 };
 
-/// The corners of the triangles, three indices each, of a block of nx * ny vertices in rows of `block_vertices`.
-/// Along an edge to a coarser neighbour the vertices that it lacks are drawn in to those it has, so that no
-/// crack opens. Quads without a known cell and triangles with a corner that has no height are left out.
+/// The corners of the triangles, three indices each, of a block of nx * ny vertices in rows of
+/// `block_vertices`. Along an edge to a coarser neighbour the vertices that it lacks are drawn in to those it
+/// has, so that no crack opens. Quads without a known cell and triangles with a corner that has no height are
+/// left out.
 std::vector<std::uint16_t> block_triangles(int nx, int ny, const BlockLevels& levels,
                                            const std::vector<VertexState>& states);
 

@@ -7,10 +7,10 @@
 
 namespace aeolian {
 
-/// Chooses how large the surface's quads may be on the screen, so that a frame takes no longer than its budget:
-/// larger under load, small again when there is room. A frame is taken to cost a constant and so much for each
-/// triangle; what finer quads would cost is reckoned before they are tried, so that it does not swing. A quarter
-/// of the budget is the surface's however long the rest takes.
+/// Chooses how large the surface's quads may be on the screen, so that a frame takes no longer than its
+/// budget: larger under load, small again when there is room. A frame is taken to cost a constant and so much
+/// for each triangle; what finer quads would cost is reckoned before they are tried, so that it does not
+/// swing. A quarter of the budget is the surface's however long the rest takes.
 class FrameBudget {
  public:
   /// `seconds` for a frame, > 0.
@@ -30,10 +30,11 @@ class FrameBudget {
 
   double budget_;
   int step_ = 0;
-  std::vector<double> frames_;       ///< since the last decision [s]
-  double median_ = 0;                ///< [s]
-  double triangle_seconds_ = std::numeric_limits<double>::infinity();  ///< cost of one triangle, not known yet
-  std::size_t last_triangles_ = 0;   ///< at the last decision
+  std::vector<double> frames_;  ///< since the last decision [s]
+  double median_ = 0;           ///< [s]
+  double triangle_seconds_ =
+      std::numeric_limits<double>::infinity();  ///< cost of one triangle, not known yet
+  std::size_t last_triangles_ = 0;              ///< at the last decision
 };
 
 }  // namespace aeolian

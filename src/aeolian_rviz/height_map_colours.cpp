@@ -47,8 +47,8 @@ void take_row(const GridGeometry& geometry, const HeightMap::Layer& layer, const
 
 Rgba with_alpha(const Rgb& c, std::uint8_t alpha) { return {c[0], c[1], c[2], alpha}; }
 
-/// What the cells of a row are multiplied and added with. Passes of their own over plain arrays, which the compiler
-/// turns into vectors.
+/// What the cells of a row are multiplied and added with. Passes of their own over plain arrays, which the
+/// compiler turns into vectors.
 struct Row {
   explicit Row(std::size_t cells) : factor(cells, 1.0F), white(cells, 0.0F), place(cells) {}
 
@@ -178,8 +178,8 @@ ValueRange quick_display_range(const HeightMap::Layer& values, Palette palette) 
 
 ValueRange steady_range(const ValueRange& shown, const ValueRange& measured) {
   const double tolerance = 0.1 * (measured.high - measured.low);
-  const bool fits = std::abs(shown.low - measured.low) <= tolerance &&
-                    std::abs(shown.high - measured.high) <= tolerance;
+  const bool fits =
+      std::abs(shown.low - measured.low) <= tolerance && std::abs(shown.high - measured.high) <= tolerance;
   return fits ? shown : measured;
 }
 

@@ -22,7 +22,8 @@ struct Colouring {
   double contour_interval = 0;  ///< of the true heights [m]; 0: no contours. Every fifth line is stronger.
   friend bool operator==(const Colouring& a, const Colouring& b) {
     return a.palette == b.palette && a.range.low == b.range.low && a.range.high == b.range.high &&
-           a.shaded == b.shaded && a.exaggeration == b.exaggeration && a.contour_interval == b.contour_interval;
+           a.shaded == b.shaded && a.exaggeration == b.exaggeration &&
+           a.contour_interval == b.contour_interval;
   }
 };
 
@@ -31,9 +32,9 @@ class HeightMapColours {
  public:
   explicit HeightMapColours(const Colouring& colouring);
 
-  /// Colours the cells of a range; `out` points to the colour of its first cell, rows are `pitch` apart. Cells
-  /// with a height but no value are grey. Those without a height are transparent and take a neighbour's colour,
-  /// so that no other bleeds into a rim when colours are interpolated.
+  /// Colours the cells of a range; `out` points to the colour of its first cell, rows are `pitch` apart.
+  /// Cells with a height but no value are grey. Those without a height are transparent and take a neighbour's
+  /// colour, so that no other bleeds into a rim when colours are interpolated.
   void colour(const GridGeometry& geometry, const HeightMap::Layer& heights, const HeightMap::Layer& values,
               const CellRange& range, Rgba* out, int pitch) const;
 
@@ -46,12 +47,13 @@ class HeightMapColours {
   std::vector<Rgb> table_;  ///< the palette, finely, and the colour of the unknown
 };
 
-/// The texture of half the size: each colour is the mean of those of four that are not transparent, transparent
-/// when all are. Both are square and rows lie close, `size` (even) is the finer one's. Only what depends on a range
-/// of the finer one is written.
+/// The texture of half the size: each colour is the mean of those of four that are not transparent,
+/// transparent when all are. Both are square and rows lie close, `size` (even) is the finer one's. Only what
+/// depends on a range of the finer one is written.
 void halve(const Rgba* fine, int size, const CellRange& range, Rgba* coarse);
 
-/// `display_range` of at most some 20 000 cells spread over the layer, in a time that does not grow with the map.
+/// `display_range` of at most some 20 000 cells spread over the layer, in a time that does not grow with the
+/// map.
 ValueRange quick_display_range(const HeightMap::Layer& values, Palette palette);
 
 /// `shown` while it still fits `measured` within a tenth of its width, otherwise `measured`: a range that

@@ -44,37 +44,34 @@ HeightMapDisplay::~HeightMapDisplay() {
 void HeightMapDisplay::make_map_properties() {
   const QString type = QString::fromStdString(ros::message_traits::datatype<grid_map_msgs::GridMap>());
   topic_ = new rviz::RosTopicProperty(
-      "Topic", "", type, "Grid map to draw; what changes of it is taken from the same name with _updates.", this,
-      SLOT(listen()));
-  predicted_topic_ = new rviz::RosTopicProperty(
-      "Predicted Topic", "", type, "Grid map that takes turns with the first, in its place.", this,
-      SLOT(listen()));
+      "Topic", "", type, "Grid map to draw; what changes of it is taken from the same name with _updates.",
+      this, SLOT(listen()));
+  predicted_topic_ = new rviz::RosTopicProperty("Predicted Topic", "", type,
+                                                "Grid map that takes turns with the first, in its place.",
+                                                this, SLOT(listen()));
   flicker_period_ = new rviz::FloatProperty(
       "Flicker Period", 0, "Time [s] in which both maps are seen once; 0: the first one stays.", this);
   flicker_period_->setMin(0);
 }
 
 void HeightMapDisplay::make_look_properties() {
-  height_layer_ = new rviz::EditableEnumProperty(
-      "Height Layer", QString::fromStdString(layer::elevation), "Layer drawn as the surface.", this,
-      SLOT(change_look()));
-  colour_layer_ = new rviz::EditableEnumProperty(
-      "Colour Layer", QString::fromStdString(layer::elevation), "Layer that gives the colours.", this,
-      SLOT(change_look()));
+  height_layer_ = new rviz::EditableEnumProperty("Height Layer", QString::fromStdString(layer::elevation),
+                                                 "Layer drawn as the surface.", this, SLOT(change_look()));
+  colour_layer_ = new rviz::EditableEnumProperty("Colour Layer", QString::fromStdString(layer::elevation),
+                                                 "Layer that gives the colours.", this, SLOT(change_look()));
   for (rviz::EditableEnumProperty* property : {height_layer_, colour_layer_})
     connect(property, &rviz::EditableEnumProperty::requestOptions, this, &HeightMapDisplay::offer_layers);
-  palette_ = new rviz::EnumProperty(
-      "Palette", "Sand",
-      "Sand for heights, diverging (blue below zero, red above) for differences, viridis for other values, grey "
-      "for the relief alone.",
-      this, SLOT(change_look()));
+  palette_ = new rviz::EnumProperty("Palette", "Sand",
+                                    "Sand for heights, diverging (blue below zero, red above) for "
+                                    "differences, viridis for other values, grey "
+                                    "for the relief alone.",
+                                    this, SLOT(change_look()));
   palette_->addOption("Sand", static_cast<int>(Palette::sand));
   palette_->addOption("Diverging", static_cast<int>(Palette::diverging));
   palette_->addOption("Viridis", static_cast<int>(Palette::viridis));
   palette_->addOption("Grey", static_cast<int>(Palette::grey));
-  automatic_range_ = new rviz::BoolProperty("Automatic Range", true,
-                                            "The colours span the middle 96 % of the values.", this,
-                                            SLOT(change_look()));
+  automatic_range_ = new rviz::BoolProperty(
+      "Automatic Range", true, "The colours span the middle 96 % of the values.", this, SLOT(change_look()));
   automatic_range_->setDisableChildrenIfFalse(false);
   range_low_ = new rviz::FloatProperty("Low", 0, "Value of the first colour.", automatic_range_,
                                        SLOT(change_look()), this);
@@ -83,23 +80,24 @@ void HeightMapDisplay::make_look_properties() {
   shading_ = new rviz::BoolProperty("Shading", true,
                                     "Slopes are darker or brighter, as under a lamp in the north-west.", this,
                                     SLOT(change_look()));
-  contours_ = new rviz::BoolProperty("Contours", false, "Lines of equal height, every fifth one stronger.", this,
-                                     SLOT(change_look()));
+  contours_ = new rviz::BoolProperty("Contours", false, "Lines of equal height, every fifth one stronger.",
+                                     this, SLOT(change_look()));
   contours_->setDisableChildrenIfFalse(true);
   contour_interval_ = new rviz::FloatProperty(
       "Interval", 0, "Height between the lines [m]; 0: a round one, for some ten lines.", contours_,
       SLOT(change_look()), this);
   contour_interval_->setMin(0);
-  exaggeration_ = new rviz::FloatProperty(
-      "Exaggeration", 1, "Heights above the lowest are drawn this many times too high.", this,
-      SLOT(change_look()));
+  exaggeration_ = new rviz::FloatProperty("Exaggeration", 1,
+                                          "Heights above the lowest are drawn this many times too high.",
+                                          this, SLOT(change_look()));
   exaggeration_->setMin(0.01F);
   alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this, SLOT(change_alpha()));
   alpha_->setMin(0);
   alpha_->setMax(1);
   centred_ = new rviz::BoolProperty(
       "Centred", false,
-      "Drawn with its centre at the origin of its frame: for large coordinates, which rviz draws trembling.", this);
+      "Drawn with its centre at the origin of its frame: for large coordinates, which rviz draws trembling.",
+      this);
 }
 
 void HeightMapDisplay::onInitialize() {
@@ -115,7 +113,9 @@ void HeightMapDisplay::onDisable() {
   predicted_->listen(update_nh_, "");
 }
 
-void HeightMapDisplay::setTopic(const QString& topic, const QString& /*datatype*/) { topic_->setString(topic); }
+void HeightMapDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
+  topic_->setString(topic);
+}
 
 void HeightMapDisplay::reset() {
   Display::reset();
@@ -162,7 +162,8 @@ void HeightMapDisplay::choose_ranges() {
     const ValueRange present = quick_display_range(shown.map().layer(name), palette);
     return look_is_new_ ? present : steady_range(before, present);
   };
-  value_range_ = range(colour_layer_->getStdString(), static_cast<Palette>(palette_->getOptionInt()), value_range_);
+  value_range_ =
+      range(colour_layer_->getStdString(), static_cast<Palette>(palette_->getOptionInt()), value_range_);
   height_range_ = range(height_layer_->getStdString(), Palette::sand, height_range_);
   look_is_new_ = false;
 }
@@ -173,7 +174,8 @@ Look HeightMapDisplay::look() const {
   colouring.palette = static_cast<Palette>(palette_->getOptionInt());
   colouring.range = value_range_;
   if (!automatic_range_->getBool())
-    colouring.range = {static_cast<double>(range_low_->getFloat()), static_cast<double>(range_high_->getFloat())};
+    colouring.range = {static_cast<double>(range_low_->getFloat()),
+                       static_cast<double>(range_high_->getFloat())};
   colouring.shaded = shading_->getBool();
   colouring.exaggeration = static_cast<double>(exaggeration_->getFloat());
   if (contours_->getBool()) {
@@ -281,10 +283,10 @@ void HeightMapDisplay::tell() {
   std::string range = fmt::format("{:.4g} to {:.4g}", colouring.range.low, colouring.range.high);
   if (colouring.contour_interval > 0) range += ", contours every " + told_length(colouring.contour_interval);
   setStatusStd(StatusProperty::Ok, "Range", range);
-  setStatusStd(StatusProperty::Ok, "Frames",
-               fmt::format("{:.0f} ms each, {} triangles, quads of up to {:.0f} pixels",
-                           budget_.frame_seconds() * 1e3, seen_->mesh().drawn_triangles(),
-                           budget_.quad_pixels()));
+  setStatusStd(
+      StatusProperty::Ok, "Frames",
+      fmt::format("{:.0f} ms each, {} triangles, quads of up to {:.0f} pixels", budget_.frame_seconds() * 1e3,
+                  seen_->mesh().drawn_triangles(), budget_.quad_pixels()));
 }
 
 }  // namespace aeolian

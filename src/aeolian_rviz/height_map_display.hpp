@@ -3,12 +3,11 @@
 #include <memory>
 #include <string>
 
-#include <ros/time.h>
-#include <rviz/display.h>
-
 #include "aeolian_rviz/frame_budget.hpp"
 #include "aeolian_rviz/frame_clock.hpp"
 #include "aeolian_rviz/shown_map.hpp"
+#include <ros/time.h>
+#include <rviz/display.h>
 
 namespace rviz {
 class BoolProperty;

@@ -43,7 +43,8 @@ void ShownMap::draw(const Look& look) {
   }
   if (!pending_) return;
   pending_ = false;  // also when a layer is absent: until the next map or another look
-  mesh_.update(marked_, map_->layer(look.height_layer), map_->layer(look.colour_layer), look.colouring, changed_);
+  mesh_.update(marked_, map_->layer(look.height_layer), map_->layer(look.colour_layer), look.colouring,
+               changed_);
   changed_.clear();
 }
 

@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "aeolian_rviz/surface_mesh.hpp"
 #include <OgreQuaternion.h>
 #include <OgreVector.h>
 #include <ros/node_handle.h>
 #include <std_msgs/Header.h>
 
-#include "aeolian_rviz/surface_mesh.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 
@@ -20,18 +20,18 @@ struct Look {
   std::string colour_layer;
   Colouring colouring;
   friend bool operator==(const Look& a, const Look& b) {
-    return a.height_layer == b.height_layer && a.colour_layer == b.colour_layer &&
-           a.colouring == b.colouring;
+    return a.height_layer == b.height_layer && a.colour_layer == b.colour_layer && a.colouring == b.colouring;
   }
 };
 
-/// The map of one topic and its surface. Messages only mark what has changed; it is drawn once a frame, so that
-/// no more is drawn than seen, however fast they come.
+/// The map of one topic and its surface. Messages only mark what has changed; it is drawn once a frame, so
+/// that no more is drawn than seen, however fast they come.
 class ShownMap {
  public:
   explicit ShownMap(Ogre::SceneNode* parent) : mesh_(parent) {}
 
-  /// Forgets the map and waits for those of a topic; none when it is empty. Throws ros::Exception for a bad name.
+  /// Forgets the map and waits for those of a topic; none when it is empty. Throws ros::Exception for a bad
+  /// name.
   void listen(ros::NodeHandle& node, const std::string& topic);
 
   bool known() const { return map_ != nullptr; }

@@ -34,9 +34,9 @@ CellRange halved(const CellRange& range) {
 }
 
 Ogre::TexturePtr make_texture(int levels) {
-  return Ogre::TextureManager::getSingleton().createManual(
-      unique_name(), group(), Ogre::TEX_TYPE_2D, block_vertices, block_vertices, levels - 1,
-      pixel_format, Ogre::TU_DYNAMIC_WRITE_ONLY);
+  return Ogre::TextureManager::getSingleton().createManual(unique_name(), group(), Ogre::TEX_TYPE_2D,
+                                                           block_vertices, block_vertices, levels - 1,
+                                                           pixel_format, Ogre::TU_DYNAMIC_WRITE_ONLY);
 }
 
 Ogre::MaterialPtr make_material(const Ogre::TexturePtr& texture) {
@@ -101,8 +101,8 @@ SurfaceBlock::~SurfaceBlock() {
 }
 
 void SurfaceBlock::take(const GridGeometry& geometry, const HeightMap::Layer& heights,
-                        const HeightMap::Layer& values, const HeightMapColours& colours, const CellRange& part,
-                        double base) {
+                        const HeightMap::Layer& values, const HeightMapColours& colours,
+                        const CellRange& part, double base) {
   const std::vector<VertexState> before = vertices_.states;
   vertices_.take(geometry, heights, cells_, part, base);
   const bool known_before = known_;

@@ -2,14 +2,13 @@
 
 #include <vector>
 
+#include "aeolian_rviz/block_cells.hpp"
+#include "aeolian_rviz/block_triangles.hpp"
+#include "aeolian_rviz/height_map_colours.hpp"
 #include <OgreHardwareVertexBuffer.h>
 #include <OgreMaterial.h>
 #include <OgreSimpleRenderable.h>
 #include <OgreTexture.h>
-
-#include "aeolian_rviz/block_cells.hpp"
-#include "aeolian_rviz/block_triangles.hpp"
-#include "aeolian_rviz/height_map_colours.hpp"
 
 namespace aeolian {
 
@@ -24,8 +23,8 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
   SurfaceBlock(const CellRange& cells, const Ogre::HardwareVertexBufferSharedPtr& texture_coordinates);
   ~SurfaceBlock() override;
 
-  /// Takes heights and colours of a part of its cells, for the next upload. Places are relative to the map's corner
-  /// and to `base` [m]. Blocks may do so at the same time.
+  /// Takes heights and colours of a part of its cells, for the next upload. Places are relative to the map's
+  /// corner and to `base` [m]. Blocks may do so at the same time.
   void take(const GridGeometry& geometry, const HeightMap::Layer& heights, const HeightMap::Layer& values,
             const HeightMapColours& colours, const CellRange& part, double base);
   /// Moves what was taken into the buffers.

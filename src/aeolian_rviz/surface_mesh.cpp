@@ -22,7 +22,9 @@ double lowest(const HeightMap::Layer& heights) {
 }  // namespace
 
 SurfaceMesh::SurfaceMesh(Ogre::SceneNode* parent)
-    : parent_(parent), node_(parent->createChildSceneNode()), texture_coordinates_(make_texture_coordinates()) {}
+    : parent_(parent),
+      node_(parent->createChildSceneNode()),
+      texture_coordinates_(make_texture_coordinates()) {}
 
 SurfaceMesh::~SurfaceMesh() {
   clear();
@@ -53,7 +55,8 @@ void SurfaceMesh::rebuild(const GridGeometry& geometry, const HeightMap::Layer& 
 }
 
 void SurfaceMesh::update(const GridGeometry& geometry, const HeightMap::Layer& heights,
-                         const HeightMap::Layer& values, const Colouring& colouring, const TileMask& changed) {
+                         const HeightMap::Layer& values, const Colouring& colouring,
+                         const TileMask& changed) {
   const bool anew = geometry != geometry_;
   if (anew) rebuild(geometry, heights);
   const HeightMapColours colours(colouring);

@@ -3,12 +3,12 @@
 #include <memory>
 #include <vector>
 
+#include "aeolian_rviz/height_map_colours.hpp"
+#include "aeolian_rviz/surface_block.hpp"
 #include <OgreHardwareVertexBuffer.h>
 #include <OgreQuaternion.h>
 #include <OgreVector.h>
 
-#include "aeolian_rviz/height_map_colours.hpp"
-#include "aeolian_rviz/surface_block.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
@@ -21,8 +21,8 @@ class Viewport;
 
 namespace aeolian {
 
-/// A height map as a surface in rviz' scene: blocks that keep their buffers while the grid stays the same, each
-/// at a level of detail of its own, joined without cracks.
+/// A height map as a surface in rviz' scene: blocks that keep their buffers while the grid stays the same,
+/// each at a level of detail of its own, joined without cracks.
 class SurfaceMesh {
  public:
   explicit SurfaceMesh(Ogre::SceneNode* parent);
@@ -35,8 +35,8 @@ class SurfaceMesh {
               const Colouring& colouring, const TileMask& changed);
   void clear();
 
-  /// Puts it into the scene: pose of the map's frame, minus `centre` (x, y) of that frame [m]. Heights above the
-  /// lowest of the first map are drawn `exaggeration` times as high.
+  /// Puts it into the scene: pose of the map's frame, minus `centre` (x, y) of that frame [m]. Heights above
+  /// the lowest of the first map are drawn `exaggeration` times as high.
   void place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation,
              const std::array<double, 2>& centre, double exaggeration);
   void set_visible(bool visible);

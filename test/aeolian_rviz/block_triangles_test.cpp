@@ -25,7 +25,8 @@ double area(const std::vector<std::uint16_t>& corners) {
     const int a = corners[i];
     const int b = corners[i + 1];
     const int c = corners[i + 2];
-    const double twice = (x_of(b) - x_of(a)) * (y_of(c) - y_of(a)) - (x_of(c) - x_of(a)) * (y_of(b) - y_of(a));
+    const double twice =
+        (x_of(b) - x_of(a)) * (y_of(c) - y_of(a)) - (x_of(c) - x_of(a)) * (y_of(b) - y_of(a));
     EXPECT_GT(twice, 0);
     sum += twice;
   }

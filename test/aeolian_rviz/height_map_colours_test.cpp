@@ -63,7 +63,8 @@ TEST(HeightMapColours, DivergingShowsTheSignOfTheColourLayer) {
 
 TEST(HeightMapColours, CellsWithoutAHeightAreTransparentInTheColourBesideThem) {
   const GridGeometry grid(0, 0, 1, 3, 1);
-  const std::vector<Rgba> colours = all_colours(grid, {0, nan, nan}, {0.2F, 1, 1}, plain(Palette::sand, {0, 1}));
+  const std::vector<Rgba> colours =
+      all_colours(grid, {0, nan, nan}, {0.2F, 1, 1}, plain(Palette::sand, {0, 1}));
   EXPECT_EQ(colours[0][3], 255);
   EXPECT_EQ(colours[1][3], 0);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(colours[1][c], colours[0][c]);

@@ -34,8 +34,8 @@ struct ValueRange {
 };
 ValueRange display_range(const HeightMap::Layer& values, Palette palette);
 
-/// Light reflected by ground of the given slopes (rise over run, eastwards and northwards) in [0, 1] under a lamp
-/// in the north-west, 45 degrees high. Inline, for loops that the compiler turns into vectors.
+/// Light reflected by ground of the given slopes (rise over run, eastwards and northwards) in [0, 1] under a
+/// lamp in the north-west, 45 degrees high. Inline, for loops that the compiler turns into vectors.
 inline float reflected_light(float slope_east, float slope_north) {
   // Unit normal (-dx, -dy, 1) / |.| times the direction to the lamp (-1/2, 1/2, sin 45).
   const float towards = (0.5F * slope_east - 0.5F * slope_north + flat_light) /
@@ -43,9 +43,9 @@ inline float reflected_light(float slope_east, float slope_north) {
   return std::clamp(towards, 0.0F, 1.0F);
 }
 
-/// What such light makes of a colour: each channel times `factor` plus `white`, relative to flat ground, which
-/// keeps its colour. Bright slopes go towards white instead of saturating one channel after another, which would
-/// change the hue.
+/// What such light makes of a colour: each channel times `factor` plus `white`, relative to flat ground,
+/// which keeps its colour. Bright slopes go towards white instead of saturating one channel after another,
+/// which would change the hue.
 struct Lighting {
   float factor;
   float white;
