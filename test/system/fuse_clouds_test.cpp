@@ -91,7 +91,7 @@ std::string rippled_bed(double shift_x, double shift_z, double phase) {
 }
 
 TEST_F(FuseClouds, RegistersEachCloudOntoTheMapOfThoseBefore) {
-  const std::string a = write("a.xyz", rippled_bed(0, 0, 0.2));
+  const std::string a = write("a.xyz", rippled_bed(0, 0, 0.5));
   const std::string b = write("b.xyz", rippled_bed(0.006, 0.004, 0.7));
   const std::string far = write("far.xyz", rippled_bed(0, 0.3, 0.5));
   std::string text;

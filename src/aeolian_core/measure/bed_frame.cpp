@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -38,7 +39,9 @@ Plane most_common_plane(const Points& points) {
   auto cloud = std::make_shared<pcl::PointCloud<Point>>();
   for (const Eigen::Vector3d& p : points)
     cloud->emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
-  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<Point>>(cloud, false);
+  pcl::Indices all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<Point>>(cloud, all, false);
   constexpr double any = 1;  // PCL wants a threshold, for a list of inliers that is not used here
   pcl::LeastMedianSquares<Point> search(model, any);
   search.setMaxIterations(trials);

@@ -10,9 +10,49 @@ namespace aeolian {
 namespace {
 
 constexpr int reach = 3;  // cells to each side of a plane's own
-constexpr int fewest = (2 * reach + 1) * (2 * reach + 1) / 2;
+constexpr int most = (2 * reach + 1) * (2 * reach + 1);
+constexpr int fewest = most / 2;
 constexpr double least_normal_z = 0.5;
 constexpr double most_normal_variance = 0.3 * 0.3;
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Terms = Eigen::Matrix<double, 6, 1>;  // of a quadratic, in cells from the middle
+
+/// The cells of a window that are known.
+struct Offsets {
+  CellIndex cells[most];
+  int count = 0;
+  void add(CellIndex cell) { cells[count++] = cell; }
+};
+
+Terms terms_of(CellIndex offset) {
+  const double x = offset.x;
+  const double y = offset.y;
+  Terms terms;
+  terms << 1, x, y, x * x, x * y, y * y;
+  return terms;
+}
+
+/// Of the normal matrix of a quadratic through cells; nothing when they do not determine it.
+std::optional<Matrix6> inverse_for(const Offsets& known) {
+  Matrix6 normal_matrix = Matrix6::Zero();
+  for (int i = 0; i < known.count; ++i)
+    normal_matrix += terms_of(known.cells[i]) * terms_of(known.cells[i]).transpose();
+  const Eigen::LLT<Matrix6> solver(normal_matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return solver.solve(Matrix6::Identity());
+}
+
+/// The same for a whole window: most are.
+const Matrix6& whole_inverse() {
+  static const Matrix6 inverse = [] {
+    Offsets all;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) all.add({x, y});
+    return *inverse_for(all);
+  }();
+  return inverse;
+}
 
 }  // namespace
 
@@ -26,35 +66,29 @@ MapSurface::Plane MapSurface::fitted(CellIndex cell) const {
   const Plane none{0, 0, 0, 0, State::none};
   const double own = static_cast<double>(elevation_[geometry_.index(cell)]);
   if (!std::isfinite(own)) return none;
-  using Terms = Eigen::Matrix<double, 6, 1>;  // of a quadratic in cells from the middle
-  Eigen::Matrix<double, 6, 6> normal_matrix = Eigen::Matrix<double, 6, 6>::Zero();
   Terms right = Terms::Zero();
   double squares = 0;
-  int known = 0;
+  Offsets known;
   for (int y = std::max(cell.y - reach, 0); y <= std::min(cell.y + reach, geometry_.ny() - 1); ++y)
     for (int x = std::max(cell.x - reach, 0); x <= std::min(cell.x + reach, geometry_.nx() - 1); ++x) {
       const double height = static_cast<double>(elevation_[geometry_.index(x, y)]) - own;
       if (!std::isfinite(height)) continue;
-      const double dx = x - cell.x;
-      const double dy = y - cell.y;
-      Terms terms;
-      terms << 1, dx, dy, dx * dx, dx * dy, dy * dy;
-      normal_matrix.noalias() += terms * terms.transpose();
-      right += height * terms;
+      const CellIndex offset{x - cell.x, y - cell.y};
+      right += height * terms_of(offset);
       squares += height * height;
-      ++known;
+      known.add(offset);
     }
-  if (known < fewest) return none;
-  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> solver(normal_matrix);
-  if (solver.info() != Eigen::Success) return none;
-  const Terms solution = solver.solve(right);
-  const Terms of_slopes = solver.solve(Eigen::Matrix<double, 6, 6>::Identity()).diagonal();
-  const double scatter = std::max(squares - solution.dot(right), 0.0) / (known - 6);
+  if (known.count < fewest) return none;
+  const std::optional<Matrix6> inverse = known.count == most ? whole_inverse() : inverse_for(known);
+  if (!inverse) return none;
+  const Terms solution = *inverse * right;
+  const double scatter = std::max(squares - solution.dot(right), 0.0) / (known.count - 6);
   const double per_cell = 1 / geometry_.cell();
   const Eigen::Vector2d slope = solution.segment<2>(1) * per_cell;
   const double cosine = 1 / std::sqrt(1 + slope.squaredNorm());
   // An error of the slope turns the normal by at most its cosine times as much.
-  const double variance = scatter * std::max(of_slopes[1], of_slopes[2]) * std::pow(per_cell * cosine, 2);
+  const double variance =
+      scatter * std::max((*inverse)(1, 1), (*inverse)(2, 2)) * std::pow(per_cell * cosine, 2);
   if (cosine < least_normal_z || variance > most_normal_variance) return none;
   return {static_cast<float>(own + solution[0]), static_cast<float>(slope.x()), static_cast<float>(slope.y()),
           static_cast<float>(variance), State::fitted};

@@ -24,6 +24,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 /// Steps below this part of a cell end the iteration.
 constexpr double step_per_cell = 5e-3;
+constexpr double sigma_per_median = 1.4826;  // of the size of normal noise
 /// Side of NDT's voxels, in cells of the map.
 constexpr double cells_per_voxel = 10;
 
@@ -124,6 +125,29 @@ class StepToPlanes : public pcl::registration::TransformationEstimation<PlanePoi
   double farthest_;
 };
 
+double median_distance(const std::vector<PointOnPlane>& pairs) {
+  std::vector<double> distances;
+  distances.reserve(pairs.size());
+  for (const PointOnPlane& pair : pairs) distances.push_back(std::abs(pair.residual));
+  return median(std::move(distances));
+}
+
+Points moved_points(const Eigen::Isometry3d& move, Points points) {
+  for (Eigen::Vector3d& point : points) point = move * point;
+  return points;
+}
+
+/// Whether a step is smaller than the standard error of the pose: at edges, where planes come and go, the
+/// iteration may go around in so small a circle for ever.
+bool within_error(const Eigen::Isometry3d& step, const std::vector<PointOnPlane>& pairs,
+                  const HeldDirections& held) {
+  double squares = 0;
+  for (const PointOnPlane& pair : pairs)
+    squares += std::pow(pair.normal.dot(step * pair.point - pair.point), 2);
+  const double sigma = sigma_per_median * median_distance(pairs);
+  return squares <= sigma * sigma * static_cast<double>(held.basis.cols());
+}
+
 /// Nothing when it does not come to an end. Moves are of points about the local origin.
 std::optional<Eigen::Isometry3d> move_by_icp(const Points& points, MapSurface& surface,
                                              const HeldDirections& held, const RegistrationParameters& p) {
@@ -145,10 +169,14 @@ std::optional<Eigen::Isometry3d> move_by_icp(const Points& points, MapSurface& s
   icp.getConvergeCriteria()->setFailureAfterMaximumIterations(true);
   PlaneCloud moved;
   icp.align(moved);
+  const Eigen::Isometry3d move(icp.getFinalTransformation());
   using Criteria = pcl::registration::DefaultConvergenceCriteria<double>;
-  if (icp.getConvergeCriteria()->getConvergenceState() != Criteria::CONVERGENCE_CRITERIA_TRANSFORM)
+  const bool at_rest =
+      icp.getConvergeCriteria()->getConvergenceState() == Criteria::CONVERGENCE_CRITERIA_TRANSFORM;
+  const Eigen::Isometry3d last_step(icp.getLastIncrementalTransformation());
+  if (!at_rest && !within_error(last_step, surface.pairs(moved_points(move, points), p.max_distance), held))
     return std::nullopt;
-  return Eigen::Isometry3d(icp.getFinalTransformation());
+  return move;
 }
 
 /// In voxels as the unit of length, because the mixture of NDT's score assumes voxels of side 1.
@@ -170,13 +198,6 @@ std::optional<Eigen::Isometry3d> move_by_ndt(const Points& points, MapSurface& s
   Eigen::Isometry3d move(ndt.getFinalTransformation());
   move.translation() *= voxel;
   return held_part(move, held);
-}
-
-double median_distance(const std::vector<PointOnPlane>& pairs) {
-  std::vector<double> distances;
-  distances.reserve(pairs.size());
-  for (const PointOnPlane& pair : pairs) distances.push_back(std::abs(pair.residual));
-  return median(std::move(distances));
 }
 
 /// Why the refinement is not to be trusted; empty when it is.
@@ -237,13 +258,11 @@ Registration register_cloud(const PointCloud& cloud, const Eigen::Isometry3d& po
     result.reason = fmt::format("did not come to rest in {} iterations", parameters.max_iterations);
     return result;
   }
-  for (Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d moved = *move * point;
-    result.shift = std::max(result.shift, (moved - point).norm());
-    point = moved;
-  }
+  const Points moved = moved_points(*move, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.shift = std::max(result.shift, (moved[i] - points[i]).norm());
   result.angle = Eigen::AngleAxisd(move->linear()).angle();
-  const auto after = surface.pairs(points, parameters.max_distance);
+  const auto after = surface.pairs(moved, parameters.max_distance);
   result.pairs = after.size();
   result.median_residual = median_distance(after);
   result.reason = objection(result, given.size(), parameters);

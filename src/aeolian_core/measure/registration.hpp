@@ -25,7 +25,7 @@ struct RegistrationParameters {
   double least_slope = 0.03;
   std::size_t min_pairs = 500;     ///< fewer points over the known map are refused
   std::size_t max_points = 20000;  ///< of the cloud that are used, drawn evenly along it
-  int max_iterations = 100;
+  int max_iterations = 100;        ///< of which few are needed but at edges
 };
 
 /// How a cloud was moved onto a map, or why not.
@@ -49,9 +49,9 @@ struct Registration {
 /// than a quarter of the ripples' length.
 ///
 /// The result depends on the inputs alone. Not accepted: too few points over the map, a move beyond the
-/// bounds, a median distance that grows, points that leave the map, no end after max_iterations. Throws Error
-/// for parameters that cannot be, a pose that is not finite, coordinates of different counts and a map
-/// without elevation.
+/// bounds, a median distance that grows, points that leave the map, steps that after max_iterations are still
+/// larger than the standard error of the pose. Throws Error for parameters that cannot be, a pose that is not
+/// finite, coordinates of different counts and a map without elevation.
 Registration register_cloud(const PointCloud& cloud, const Eigen::Isometry3d& pose, const HeightMap& map,
                             const RegistrationParameters& parameters);
 

@@ -71,6 +71,7 @@ class Captures : public ::testing::Test {
   /// First with all that is within 15 cm of the map, then with what is within 5.
   static Registration refine(const PointCloud& cloud, const Eigen::Isometry3d& pose, const HeightMap& map) {
     RegistrationParameters parameters;
+    parameters.max_points = 8000;
     parameters.max_shift = 0.2;
     parameters.max_angle = 5 * degree;
     parameters.max_distance = 0.15;
