@@ -6,11 +6,12 @@
 namespace aeolian {
 namespace {
 
-/// The mean of the nearest known heights along row and column, the nearer the heavier; NaN when none is near.
+/// The mean of the nearest known heights along row, column and diagonals, the nearer the heavier; NaN when
+/// none is near.
 float extended(const GridGeometry& geometry, const HeightMap::Layer& values, int x, int y) {
   double sum = 0;
   double weights = 0;
-  for (const auto& [dx, dy] : {CellIndex{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+  for (const auto& [dx, dy] : {CellIndex{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
     for (int d = 1; d <= extension_cells; ++d) {
       const CellIndex cell{x + d * dx, y + d * dy};
       if (!geometry.contains(cell)) break;

@@ -9,6 +9,9 @@ namespace aeolian {
 
 /// Level of detail: every 2^level-th vertex of a block is drawn, and its last row and column.
 constexpr int coarsest_level = 6;
+/// Of a block with holes: the quads at a rim stand on heights that are extended no further.
+constexpr int coarsest_level_at_holes = 3;
+static_assert(1 << coarsest_level_at_holes <= extension_cells);
 
 /// The coarsest level whose quads are at most `quad_pixels` wide on the screen, 0 when even cells are wider.
 int detail_level(double cell_pixels, double quad_pixels);

@@ -36,6 +36,7 @@ class SurfaceBlock : public Ogre::SimpleRenderable {
 
   const CellRange& cells() const { return cells_; }
   bool empty() const { return !known_; }
+  bool has_holes() const { return holes_; }
   std::size_t count_triangles(int level) const;
   std::size_t drawn_triangles() const { return mRenderOp.indexData->indexCount / 3; }
 

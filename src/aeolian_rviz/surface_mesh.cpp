@@ -94,7 +94,8 @@ void SurfaceMesh::set_alpha(float alpha) {
   for (const Part& part : parts_) part.block->set_alpha(alpha);
 }
 
-int SurfaceMesh::level(const SurfaceBlock& block, const Ogre::Viewport& viewport, double quad_pixels) const {
+int SurfaceMesh::level_of(const SurfaceBlock& block, const Ogre::Viewport& viewport,
+                          double quad_pixels) const {
   const Ogre::Camera& camera = *viewport.getCamera();
   const Ogre::Vector3 scale = node_->getScale();
   const Ogre::AxisAlignedBox& box = block.getBoundingBox();
@@ -108,13 +109,14 @@ int SurfaceMesh::level(const SurfaceBlock& block, const Ogre::Viewport& viewport
   const double pixels_per_metre = static_cast<double>(std::abs(projection[1][1])) *
                                   viewport.getActualHeight() / 2 /
                                   (parallel ? 1.0 : std::max(distance, 1e-9));
-  return detail_level(geometry_.cell() * pixels_per_metre, quad_pixels);
+  const int level = detail_level(geometry_.cell() * pixels_per_metre, quad_pixels);
+  return block.has_holes() ? std::min(level, coarsest_level_at_holes) : level;
 }
 
 void SurfaceMesh::set_detail(const Ogre::Viewport& viewport, double quad_pixels) {
   std::vector<int> levels;
   levels.reserve(parts_.size());
-  for (const Part& part : parts_) levels.push_back(level(*part.block, viewport, quad_pixels));
+  for (const Part& part : parts_) levels.push_back(level_of(*part.block, viewport, quad_pixels));
   const auto count = static_cast<int>(parts_.size());
   for (int i = 0; i < count; ++i) {
     const auto beside = [&](bool there, int j) { return levels[static_cast<std::size_t>(there ? j : i)]; };
@@ -129,7 +131,7 @@ std::size_t SurfaceMesh::count_triangles(const Ogre::Viewport& viewport, double 
   std::size_t count = 0;
   for (const Part& part : parts_)
     if (viewport.getCamera()->isVisible(part.node->_getWorldAABB()))
-      count += part.block->count_triangles(level(*part.block, viewport, quad_pixels));
+      count += part.block->count_triangles(level_of(*part.block, viewport, quad_pixels));
   return count;
 }
 

@@ -57,7 +57,7 @@ class SurfaceMesh {
     std::unique_ptr<SurfaceBlock> block;
   };
   void rebuild(const GridGeometry& geometry, const HeightMap::Layer& heights);
-  int level(const SurfaceBlock& block, const Ogre::Viewport& viewport, double quad_pixels) const;
+  int level_of(const SurfaceBlock& block, const Ogre::Viewport& viewport, double quad_pixels) const;
 
   Ogre::SceneNode* parent_;
   Ogre::SceneNode* node_;
