@@ -2,7 +2,7 @@
 // height map of one, seen along the camera's axis, and the others laid onto it.
 //
 // The published noise of this kind of camera is random noise alone. This one has stripes and blobs of its own
-// beside (a flat wall comes out 1.5 to 1.9 times as rough), which no rigid move takes away: most pairs stay
+// beside (a flat wall comes out 1.5 to 2 times as rough), which no rigid move takes away: most pairs stay
 // a little above the published noise. What is asked of them is this camera's noise, as its wall shows it.
 
 #include <algorithm>
