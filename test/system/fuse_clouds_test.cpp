@@ -76,6 +76,57 @@ TEST_F(FuseClouds, WritesHeightVarianceAndCount) {
   EXPECT_EQ(part.layer("elevation")[0], 11);
 }
 
+/// Ripples that wind, as a cloud with an offset; with another offset of the places where they are seen.
+std::string rippled_bed(double shift_x, double shift_z, double phase) {
+  std::string points;
+  for (int iy = 0; iy < 100; ++iy)
+    for (int ix = 0; ix < 100; ++ix) {
+      const double x = 0.005 * (ix + phase);
+      const double y = 0.005 * (iy + phase);
+      const double z = 0.006 * std::sin(62.8 * x + 2 * std::sin(25 * y));
+      points +=
+          std::to_string(x + shift_x) + ' ' + std::to_string(y) + ' ' + std::to_string(z + shift_z) + '\n';
+    }
+  return points;
+}
+
+TEST_F(FuseClouds, RegistersEachCloudOntoTheMapOfThoseBefore) {
+  const std::string a = write("a.xyz", rippled_bed(0, 0, 0.5));
+  const std::string b = write("b.xyz", rippled_bed(0.006, 0.004, 0.7));
+  const std::string far = write("far.xyz", rippled_bed(0, 0.3, 0.5));
+  std::string text;
+  const std::string common = " --cell 0.005 --out " + path("map.tif") + " --bounds 0,0,0.5,0.5";
+  const auto error = [&] {
+    const HeightMap map = read_geotiff(path("map.tif"));
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < map.geometry().size(); ++i) {
+      const CellIndex c = map.geometry().cell_at(i);
+      const double truth =
+          0.006 * std::sin(62.8 * map.geometry().x(c.x) + 2 * std::sin(25 * map.geometry().y(c.y)));
+      const double height = static_cast<double>(map.layer("elevation")[i]);
+      if (std::isfinite(height)) errors.push_back(std::abs(height - truth));
+    }
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                     errors.end());
+    return errors[errors.size() / 2];
+  };
+  ASSERT_EQ(run(a + " " + b + common, text), 0) << text;
+  EXPECT_GT(error(), 0.0015);
+  for (const std::string method : {"icp", "ndt"}) {
+    ASSERT_EQ(run(a + " " + b + common + " --register " + method, text), 0) << text;
+    EXPECT_NE(text.find("b.xyz: moved by up to 0.007"), std::string::npos) << text;
+    EXPECT_NE(text.find("6 of 6 directions held"), std::string::npos) << text;
+    EXPECT_LT(error(), 0.0006) << method;
+  }
+  ASSERT_EQ(run(a + " " + b + common + " --register icp --max-shift 0.005", text), 0) << text;
+  EXPECT_NE(text.find("b.xyz: fused as it is: would move a point of the cloud by 0.007"), std::string::npos)
+      << text;
+  EXPECT_GT(error(), 0.0015);
+  ASSERT_EQ(run(a + " " + far + common + " --register icp", text), 0) << text;
+  EXPECT_NE(text.find("far.xyz: fused as it is: 0 points of the cloud lie within"), std::string::npos)
+      << text;
+}
+
 TEST_F(FuseClouds, RobustTakesTheLowerSurface) {
   std::string points;
   for (int i = 0; i < 10; ++i) points += "5000.5 0.5 " + std::to_string(0.001 * i) + "\n";

@@ -18,6 +18,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_srvs/Empty.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -358,6 +359,69 @@ TEST_F(HeightMapperTest, HearsSeveralSensorsEachWithItsLatency) {
   const std::size_t i = map.geometry().index(20, 10);
   EXPECT_NEAR(map.layer(layer::elevation)[i], plane(0.205, 0.105), 5 * sigma / 3);
   EXPECT_LT(map.layer(layer::variance)[i], 0.7 * sigma * sigma / 9) << "both sensors count";
+}
+
+/// A scanner whose tf says that it stands 4 mm too high and leans by half a degree.
+TEST_F(HeightMapperTest, RefinesCloudsAgainstTheMapWhenAsked) {
+  const RunningProgram node("height_mapper",
+                            {"__ns:=refined", "points:=/points", "_cell_size:=0.01", "_length_x:=0.4",
+                             "_length_y:=0.2", "_registration:=icp", "_diagnostic_period:=0.1"});
+  Listener<grid_map_msgs::GridMap> maps(nh_, "refined/height_map");
+  ASSERT_TRUE(wait_until([&] { return maps.connected() && points_.getNumSubscribers() > 1; }));
+  const auto map_of = [&](const sensor_msgs::PointCloud2& cloud) {
+    points_.publish(cloud);
+    EXPECT_TRUE(wait_until([&] {
+      return !maps.messages.empty() && maps.messages.back()->info.header.stamp == cloud.header.stamp;
+    }));
+    return to_height_map(*maps.messages.back());
+  };
+  expect_plane(map_of(plane_cloud(ros::Time(1700009000))));
+  geometry_msgs::TransformStamped off = scanner_pose("off", ros::Time::now());
+  off.transform.translation.z += 0.004;
+  off.transform.rotation.y = std::sin(0.25 * M_PI / 180);
+  off.transform.rotation.x = std::cos(0.25 * M_PI / 180);
+  tf_.sendTransform(off);
+  for (std::uint32_t i = 1; i < 5; ++i) map_of(plane_cloud(ros::Time(1700009000 + i), "off"));
+  const HeightMap map = map_of(plane_cloud(ros::Time(1700009005), "off"));
+  for (const CellIndex at : {CellIndex{2, 2}, CellIndex{37, 2}, CellIndex{20, 10}, CellIndex{37, 17}}) {
+    const double truth = plane(map.geometry().x(at.x), map.geometry().y(at.y));
+    EXPECT_NEAR(map.layer(layer::elevation)[map.geometry().index(at)], truth, sigma) << at.x << ' ' << at.y;
+  }
+
+  off.transform.translation.z += 0.1;
+  tf_.sendTransform(off);
+  ros::WallDuration(0.3).sleep();
+  points_.publish(plane_cloud(ros::Time(1700009006), "off"));
+  EXPECT_TRUE(diagnostics_.warns("refined", "refused, the cloud is used as tf says"));
+}
+
+TEST_F(HeightMapperTest, LaysTheMapAlongTheBedWhenAsked) {
+  const RunningProgram node("height_mapper",
+                            {"__ns:=level", "points:=/points", "_cell_size:=0.01", "_level:=true"});
+  Listener<grid_map_msgs::GridMap> maps(nh_, "level/height_map");
+  Listener<tf2_msgs::TFMessage> frames(nh_, "/tf_static");
+  ASSERT_TRUE(wait_until([&] { return maps.connected() && points_.getNumSubscribers() > 1; }));
+  points_.publish(plane_cloud(ros::Time(1700010000)));
+  ASSERT_TRUE(wait_until([&] { return !maps.messages.empty(); }));
+  EXPECT_EQ(maps.messages.back()->info.header.frame_id, "bed");
+  const HeightMap map = to_height_map(*maps.messages.back());
+  double sum_of_squares = 0;
+  for (const float z : map.layer(layer::elevation))
+    if (std::isfinite(z)) sum_of_squares += static_cast<double>(z) * static_cast<double>(z);
+  const auto known = static_cast<double>(count_known(map.layer(layer::elevation)));
+  EXPECT_GT(known, 750);
+  EXPECT_LT(std::sqrt(sum_of_squares / known), 0.6 * sigma) << "the bed is level in its own frame";
+  const auto bed = [&]() -> const geometry_msgs::TransformStamped* {
+    for (const auto& message : frames.messages)
+      for (const auto& transform : message->transforms)
+        if (transform.child_frame_id == "bed" && transform.header.frame_id == "map") return &transform;
+    return nullptr;
+  };
+  ASSERT_TRUE(wait_until([&] { return bed() != nullptr; }));
+  const auto& q = bed()->transform.rotation;
+  const Eigen::Vector3d normal = Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d truth = Eigen::Vector3d(-0.1, 0.05, 1).normalized();
+  EXPECT_LT(std::acos(normal.dot(truth)), 1e-3);
 }
 
 TEST_F(HeightMapperTest, AKilledNodeGoesOnWithItsMap) {

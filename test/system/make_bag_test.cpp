@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "../small_disk.hpp"
 #include "../temporary_folder.hpp"
 #include "program_outcome.hpp"
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -367,6 +369,24 @@ TEST_F(MakeBag, NeedsAPlaceForTheBag) {
     EXPECT_EQ(outcome.err.rfind("make_bag: cannot write '" + bag + "': ", 0), 0U) << outcome.err;
     EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
   }
+}
+
+TEST_F(MakeBag, AFullDiskIsToldAndLeavesTheOldBag) {
+  std::string points;
+  for (int i = 0; i < 40000; ++i)
+    points += fmt::format("{} {} {}\n", std::sin(i), std::cos(3 * i), std::sin(7 * i));
+  folder_.write("scan.xyz", points);
+  const std::string manifest = folder_.write("manifest.yaml", "clouds:\n  - {file: scan.xyz, stamp: 1}\n");
+  const TemporaryFolder small;
+  const SmallDisk disk(small.path(), 100000);
+  if (!disk.mounted()) GTEST_SKIP() << "only the superuser can make a small disk";
+  const std::string bag = small.write("out.bag", "old");
+  const Outcome outcome = run(manifest, bag);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err.rfind("make_bag: bag '" + bag + "': ", 0), 0U) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(content_of(bag), "old");
+  EXPECT_EQ(small.count_files(), 1U);
 }
 
 TEST_F(MakeBag, SaysHowItIsCalled) {

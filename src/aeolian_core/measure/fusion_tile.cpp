@@ -10,7 +10,7 @@ namespace {
 // still bed (the noise's share of the tracking filter's variance), more than 1 where ripples pass. `drift` is
 // the mean of (tracked - still height)^2 / tracked variance: about 3/4 on a still bed. Both scatter as
 // 1 / sqrt(n); noise that is 15 % more than the sensor's model says looks like motion.
-constexpr std::int64_t least_cells = 64;
+constexpr std::int64_t least_cells = 16;
 bool looks_still(double rate, double scatter) { return rate < 0.25 + 0.7 * scatter; }
 bool looks_moving(double rate, double drift, double scatter) {
   return rate > 0.30 + scatter || drift > 0.82 + 3.4 * scatter;

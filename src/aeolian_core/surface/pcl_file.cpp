@@ -5,32 +5,18 @@
 #include <cstring>
 
 #include <pcl/PCLPointCloud2.h>
-#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
 #include "aeolian_core/surface/cloud_text.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/quiet_pcl.hpp"
 #include "aeolian_core/surface/text.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr const char* damaged = "is damaged or not of the format that its name says";
-
-/// While it lives PCL prints nothing of its own.
-class QuietPcl {
- public:
-  QuietPcl() : before_(pcl::console::getVerbosityLevel()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
-
- private:
-  pcl::console::VERBOSITY_LEVEL before_;
-};
 
 template <class Number>
 void copy_values(const pcl::PCLPointCloud2& blob, std::size_t offset, std::vector<double>& values) {

@@ -18,6 +18,9 @@ constexpr std::array<Rgb, 7> diverging{{{23, 64, 125},
                                         {240, 170, 135},
                                         {209, 88, 75},
                                         {128, 15, 36}}};
+constexpr std::array<Rgb, 6> viridis{
+    {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
+constexpr Rgb grey{205, 205, 205};
 
 template <std::size_t Count>
 Rgb interpolated(const std::array<Rgb, Count>& stops, double value) {
@@ -31,26 +34,22 @@ Rgb interpolated(const std::array<Rgb, Count>& stops, double value) {
   return result;
 }
 
-constexpr float sin_45 = 0.70710678F;
-/// Light reflected by flat ground under a lamp 45 degrees high.
-constexpr float flat = sin_45;
-
-/// A colour channel under light relative to that on flat ground, which keeps the palette's own colour. Bright
-/// slopes go towards white instead of saturating one channel after another, which would change the hue.
-std::uint8_t lit(std::uint8_t channel, float light) {
-  constexpr float darkest = 0.2F;
-  constexpr float whitest = 0.6F;
-  const auto value = static_cast<float>(channel);
-  if (light <= 1) return static_cast<std::uint8_t>(value * (darkest + (1 - darkest) * light));
-  return static_cast<std::uint8_t>(value + (255 - value) * whitest * (light - 1));
-}
-
 }  // namespace
 
 Rgb colour(Palette palette, double value) {
   if (std::isnan(value)) return unknown_colour;
   const double clamped = std::clamp(value, 0.0, 1.0);
-  return palette == Palette::sand ? interpolated(sand, clamped) : interpolated(diverging, clamped);
+  switch (palette) {
+    case Palette::sand:
+      return interpolated(sand, clamped);
+    case Palette::diverging:
+      return interpolated(diverging, clamped);
+    case Palette::viridis:
+      return interpolated(viridis, clamped);
+    case Palette::grey:
+      break;
+  }
+  return grey;
 }
 
 ValueRange display_range(const HeightMap::Layer& values, Palette palette) {
@@ -65,7 +64,7 @@ ValueRange display_range(const HeightMap::Layer& values, Palette palette) {
     return static_cast<double>(known[static_cast<std::size_t>(rank)]);
   };
   const ValueRange range{percentile(0.02), percentile(0.98)};
-  if (palette == Palette::sand) return range;
+  if (palette != Palette::diverging) return range;
   const double bound = std::max(std::abs(range.low), std::abs(range.high));
   return {-bound, bound};
 }
@@ -74,7 +73,7 @@ std::vector<float> hill_shade(const GridGeometry& geometry, const HeightMap::Lay
                               double exaggeration) {
   const int nx = geometry.nx();
   const int ny = geometry.ny();
-  std::vector<float> shade(geometry.size(), flat);
+  std::vector<float> shade(geometry.size(), flat_light);
   for (int y = 0; y < ny; ++y) {
     const int south = std::max(y - 1, 0);
     const int north = std::min(y + 1, ny - 1);
@@ -88,9 +87,7 @@ std::vector<float> hill_shade(const GridGeometry& geometry, const HeightMap::Lay
       const float dx = slope({west, y}, {east, y}, east - west);
       const float dy = slope({x, south}, {x, north}, north - south);
       if (!std::isfinite(dx + dy + elevation[geometry.index(x, y)])) continue;
-      // Unit normal (-dx, -dy, 1) / |.| times the direction to the lamp (-1/2, 1/2, sin 45).
-      const float towards = (0.5F * dx - 0.5F * dy + sin_45) / std::sqrt(1 + dx * dx + dy * dy);
-      shade[geometry.index(x, y)] = std::clamp(towards, 0.0F, 1.0F);
+      shade[geometry.index(x, y)] = reflected_light(dx, dy);
     }
   }
   return shade;
@@ -106,7 +103,9 @@ std::vector<Rgb> shaded_colours(const GridGeometry& geometry, const HeightMap::L
     const double share = width > 0 ? (value - range.low) / width : value * 0 + 0.5;
     result[i] = colour(palette, share);
     if (!std::isfinite(values[i])) continue;
-    for (std::uint8_t& channel : result[i]) channel = lit(channel, shade[i] / flat);
+    const Lighting light = lighting(shade[i]);
+    for (std::uint8_t& channel : result[i])
+      channel = static_cast<std::uint8_t>(static_cast<float>(channel) * light.factor + light.white);
   }
   return result;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +12,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
 
+#include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/measure/sensor_noise.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
 #include "aeolian_twin/nodes/parameters.hpp"
@@ -23,11 +24,12 @@ struct SensorSettings {
   std::string name;   ///< in diagnostics; empty: the only one
   std::string topic;  ///< of its clouds
   SensorNoise noise;
-  ros::Duration latency;  ///< how long after its measurement a cloud is stamped
+  ros::Duration latency;                               ///< how long after its measurement a cloud is stamped
+  std::optional<RegistrationParameters> registration;  ///< of its clouds onto the map; nothing: none
 };
 
-/// The parameters of a sensor, with the fallbacks that `fallback` gives; all but `topic`.
-std::vector<ParameterDeclaration> sensor_parameters(const SensorNoise& fallback, double latency = 0);
+/// The parameters of a sensor, with what `shared` says as fallback; all but `topic`.
+std::vector<ParameterDeclaration> sensor_parameters(const SensorSettings& shared);
 /// The sensor that such parameters describe. Throws Error for those that do not fit together.
 SensorSettings read_sensor(const Parameters& parameters, const std::string& name, const std::string& topic);
 /// The sensors that the struct `sensors` of a node's parameters names: NAME: {topic: ..., sensor_file: ...};

@@ -1,12 +1,19 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "aeolian_core/measure/bed_frame.hpp"
+#include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/autosave.hpp"
 #include "aeolian_twin/nodes/cloud_input.hpp"
 #include "aeolian_twin/nodes/live_map.hpp"
@@ -60,7 +67,12 @@ class HeightMapper : public Node {
     const SensorSettings shared = read_sensor(parameters(), "", "points");
     LiveMap::Settings settings;
     settings.fusion = read_fusion(parameters(), shared.noise);
-    settings.frame = parameters().text("frame_id");
+    frame_ = parameters().text("frame_id");
+    level_ = parameters().flag("level");
+    settings.frame = level_ ? parameters().text("bed_frame") : frame_;
+    if (level_ && settings.frame == frame_) parameters().refuse("bed_frame", "another than frame_id");
+    if (level_ && parameters().number("autosave_period") > 0)
+      parameters().refuse("autosave_period", "0 with ~level: a node started again would fit another frame");
     settings.cell_size = parameters().number("cell_size");
     settings.max_cells = parameters().number("max_cells");
     settings.geometry = read_grid(parameters());
@@ -79,8 +91,7 @@ class HeightMapper : public Node {
 
   void listen(const std::vector<SensorSettings>& sensors) {
     listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
-    const CloudInput::Frames frames{tf_buffer_, live_->frame(),
-                                    ros::WallDuration(parameters().number("tf_timeout")),
+    const CloudInput::Frames frames{tf_buffer_, frame_, ros::WallDuration(parameters().number("tf_timeout")),
                                     static_cast<std::uint32_t>(parameters().integer("queue_size"))};
     for (const SensorSettings& sensor : sensors)
       inputs_.push_back(std::make_unique<CloudInput>(
@@ -99,7 +110,8 @@ class HeightMapper : public Node {
       good(clouds, "not used: disable_updates was called");
       return;
     }
-    const FusionResult result = live_->fuse(cloud, pose, stamp, sensor.noise);
+    const FusionResult result =
+        live_->fuse(cloud, refined(cloud, in_map(cloud, pose), sensor), stamp, sensor.noise);
     if (result.used == 0)
       throw Error(
           fmt::format("none of {} points can be used: {} not finite, {} out of range, {} outside the map",
@@ -116,6 +128,41 @@ class HeightMapper : public Node {
       publisher_->publish();
       published_ = stamp;
     }
+  }
+
+  /// The pose in the frame of the map; the first cloud says where that is when it is to lie along the bed.
+  Eigen::Isometry3d in_map(const PointCloud& cloud, const Eigen::Isometry3d& pose) {
+    if (!level_) return pose;
+    if (!bed_) {
+      bed_ = fit_bed_frame(cloud, pose);
+      geometry_msgs::TransformStamped transform = tf2::eigenToTransform(*bed_);
+      transform.header.frame_id = frame_;
+      transform.header.stamp = ros::Time::now();
+      transform.child_frame_id = live_->frame();
+      broadcaster_.sendTransform(transform);
+      const double slope = std::acos(std::clamp(bed_->linear()(2, 2), -1.0, 1.0));
+      good("bed", fmt::format("leans by {:.2f} degrees: '{}' lies along it", radians_to_degrees(slope),
+                              live_->frame()));
+    }
+    return bed_->inverse() * pose;
+  }
+
+  /// The pose refined against the map when this is asked for and can be done.
+  Eigen::Isometry3d refined(const PointCloud& cloud, const Eigen::Isometry3d& pose,
+                            const SensorSettings& sensor) {
+    if (!sensor.registration || !live_->begun()) return pose;
+    if (count_known(live_->map().layer(layer::elevation)) == 0) return pose;
+    const std::string thing = sensor.name.empty() ? "registration" : sensor.name + " registration";
+    const Registration result = register_cloud(cloud, pose, live_->map(), *sensor.registration);
+    if (result.accepted)
+      good(thing,
+           fmt::format("moved by {:.2f} mm, turned by {:.3f} degrees; {} of 6 degrees of freedom, median "
+                       "distance {:.2f} mm",
+                       1e3 * result.shift, radians_to_degrees(result.angle), result.held,
+                       1e3 * result.median_residual));
+    else
+      bad(thing, "refused, the cloud is used as tf says: " + result.reason);
+    return result.pose;
   }
 
   void serve() {
@@ -179,6 +226,10 @@ class HeightMapper : public Node {
     }
   }
 
+  std::string frame_;  ///< in which tf places the sensors
+  bool level_ = false;
+  std::optional<Eigen::Isometry3d> bed_;  ///< frame of the map in `frame_`, when it lies along the bed
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
   std::unique_ptr<LiveMap> live_;
   std::unique_ptr<MapPublisher> publisher_;
   std::unique_ptr<MapServices> services_;
@@ -195,8 +246,8 @@ class HeightMapper : public Node {
 
 NodeDescription describe_height_mapper() {
   const FusionParameters fusion;
-  SensorNoise sensor;
-  sensor.max_range = 1e9;
+  SensorSettings sensor;
+  sensor.noise.max_range = 1e9;
   std::vector<ParameterDeclaration> parameters{
       frame_parameter(),
       {"cell_size", 0.002, "m", "side of a cell", Limits::positive()},
@@ -208,6 +259,8 @@ NodeDescription describe_height_mapper() {
       {"max_cells", 25e6, "", "a larger map is refused", Limits::positive()},
       {"publish_period", 0.0, "s", "least time between maps, by the stamps of the clouds",
        Limits::not_negative()},
+      {"level", false, "", "z of the map along the normal of the bed, by a plane fit to the first cloud"},
+      {"bed_frame", std::string("bed"), "", "with level: the frame of the map, published on tf"},
       {"incremental", false, "", "publish only what changed, on height_map_updates"},
       {"rate_sigma", fusion.change.rate_sigma, "m/s", "how fast the bed rises and sinks (rms)",
        Limits::not_negative()},

@@ -25,10 +25,7 @@ namespace aeolian {
 /// day's start; a message's stamp is its time in the bag.
 class FieldBag {
  public:
-  FieldBag(const std::string& path, double start) : start_(start), bag_(path, rosbag::bagmode::Write) {
-    bag_.setCompression(rosbag::compression::LZ4);
-  }
-  void close() { bag_.close(); }
+  FieldBag(rosbag::Bag& bag, double start) : start_(start), bag_(bag) {}
 
   /// The places of sensors and straightedge in `map`.
   void write_frames(const FieldDay& day) {
@@ -101,7 +98,7 @@ class FieldBag {
   }
 
   double start_;
-  rosbag::Bag bag_;
+  rosbag::Bag& bag_;
 };
 
 }  // namespace aeolian

@@ -1,6 +1,7 @@
 // fuse_clouds: files of points to one height map, by the fusion of height_mapper.
 
 #include <cstdio>
+#include <map>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "aeolian_core/measure/fusion.hpp"
+#include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
@@ -25,7 +27,11 @@ map does not depend on their order. Where coordinates exceed 1000 m they are geo
 standard deviation range_sigma_m of the sensor. Otherwise the sensor is taken to stand in the origin of the coordinates.
 
 By default every point counts, by its inverse variance. With --robust a cell gets the height of its lowest surface:
-plants, roofs, flying pixels and grains in flight above it are dropped, and so are stray points below it.)";
+plants, roofs, flying pixels and grains in flight above it are dropped, and so are stray points below it.
+
+With --register each cloud after the first is laid onto the map of those before it, so their order counts. A cloud that
+would move by more than --max-shift or turn by more than 2 degrees, that hardly overlaps the map or that comes no nearer
+to it, is fused as it is, with a warning.)";
 
 struct Options {
   std::vector<std::string> clouds;
@@ -34,23 +40,27 @@ struct Options {
   std::string sensor;
   std::vector<double> bounds;
   bool robust = false;
+  std::optional<RegistrationMethod> method;
+  std::optional<double> max_shift;
 };
 
 constexpr double most_cells = 4e8;
 constexpr double farthest = 1000;  // of a sensor that nobody named [m]
+constexpr double cells_of_shift = 25;
 
 /// How far the work is, on a terminal only.
 class Progress {
  public:
   explicit Progress(std::size_t clouds) : clouds_(clouds), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
+  ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void show(const char* what, std::size_t number, std::size_t points) const {
     if (shown_) fmt::print(stderr, "\r\033[K{} cloud {} of {}, {} points", what, number, clouds_, points);
+  }
+  void clear() const {
+    if (shown_) fmt::print(stderr, "\r\033[K");
   }
 
  private:
@@ -120,6 +130,25 @@ FusionParameters parameters_of(const Options& options) {
   return parameters;
 }
 
+/// The pose that lays a cloud onto the map, or none with a warning; says what it did.
+Eigen::Isometry3d registered(const std::string& name, const PointCloud& cloud, const HeightMap& map,
+                             const Options& options) {
+  RegistrationParameters parameters;
+  parameters.method = *options.method;
+  parameters.max_shift = options.max_shift.value_or(cells_of_shift * options.cell);
+  parameters.max_distance = parameters.max_shift;
+  const Registration result = register_cloud(cloud, Eigen::Isometry3d::Identity(), map, parameters);
+  if (result.accepted)
+    fmt::print(
+        "{}: moved by up to {:.3g} m, turned by {:.3g} deg ({} of 6 directions held by the surface), median "
+        "distance from the map {:.3g} m, before {:.3g} m\n",
+        name, result.shift, result.angle * 180 / M_PI, result.held, result.median_residual,
+        result.given_residual);
+  else
+    fmt::print(stderr, "fuse_clouds: warning: {}: fused as it is: {}\n", name, result.reason);
+  return result.pose;
+}
+
 void fuse(const Options& options) {
   const FusionParameters parameters = parameters_of(options);
   std::optional<Progress> progress(options.clouds.size());
@@ -129,7 +158,12 @@ void fuse(const Options& options) {
   for (std::size_t i = 0; i < options.clouds.size(); ++i) {
     progress->show("fusing", i + 1, points);
     const PointCloud cloud = read_cloud(options.clouds[i]);
-    const FusionResult result = fusion.add(cloud, Eigen::Isometry3d::Identity(), 0);
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    if (options.method && i > 0) {
+      progress->clear();
+      pose = registered(options.clouds[i], cloud, fusion.map(), options);
+    }
+    const FusionResult result = fusion.add(cloud, pose, 0);
     points += cloud.size();
     total.used += result.used;
     total.not_finite += result.not_finite;
@@ -163,6 +197,13 @@ int run(int argc, char** argv) {
   app.add_option("--bounds", options.bounds, "xmin,ymin,xmax,ymax of the map [m]; without: of the points")
       ->delimiter(',')
       ->expected(4);
+  app.add_option("--register", options.method, "lay each cloud onto the map of those before it")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, RegistrationMethod>{
+          {"icp", RegistrationMethod::icp}, {"ndt", RegistrationMethod::ndt}}));
+  app.add_option("--max-shift", options.max_shift,
+                 "farthest that --register may move a point [m]; without: 25 cells")
+      ->check(CLI::PositiveNumber)
+      ->needs("--register");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

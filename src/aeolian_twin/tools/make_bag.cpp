@@ -14,15 +14,15 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"
+#include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/wind/wind_record.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/tools/file_messages.hpp"
 #include "aeolian_twin/tools/manifest.hpp"
+#include "aeolian_twin/tools/output_bag.hpp"
 #include "aeolian_twin/tools/program.hpp"
 #include "aeolian_twin/tools/static_frames.hpp"
-#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
@@ -35,11 +35,9 @@ class BagMaker {
  public:
   explicit BagMaker(Manifest manifest) : manifest_(std::move(manifest)) { plan(); }
 
-  void write(const std::string& path) {
-    bag_.open(path, rosbag::bagmode::Write);
-    bag_.setCompression(rosbag::compression::LZ4);
+  void write(rosbag::Bag& bag) {
+    bag_ = &bag;
     for (const Step& step : steps_) step.write(step.stamp);
-    bag_.close();
   }
 
   std::string summary() const {
@@ -103,7 +101,7 @@ class BagMaker {
   void write(const std::string& topic, const std::string& frame, const ros::Time& stamp, Message message) {
     message.header.stamp = stamp;
     message.header.frame_id = frame;
-    bag_.write(topic, stamp, message);
+    bag_->write(topic, stamp, message);
   }
 
   geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child,
@@ -128,7 +126,7 @@ class BagMaker {
       frames.transforms.push_back(transform(frame, own, Eigen::Isometry3d(origin), entry.stamp));
       frame = own;
     }
-    if (!frames.transforms.empty()) bag_.write("/tf", entry.stamp, frames);
+    if (!frames.transforms.empty()) bag_->write("/tf", entry.stamp, frames);
     write("/points", frame, entry.stamp, to_message(cloud));
     points_ += cloud.size();
   }
@@ -143,7 +141,7 @@ class BagMaker {
     if (photo.pose) {
       tf2_msgs::TFMessage frames;
       frames.transforms.push_back(transform(manifest_.frame_id, photo.frame, *photo.pose, photo.stamp));
-      bag_.write("/tf", photo.stamp, frames);
+      bag_->write("/tf", photo.stamp, frames);
     }
     write("/image", photo.frame, photo.stamp, std::move(image));
     write("/camera_info", photo.frame, photo.stamp, std::move(info));
@@ -162,7 +160,7 @@ class BagMaker {
     place.translation().z() = ground() + manifest_.wind->height;
     tf2_msgs::TFMessage frames;
     frames.transforms.push_back(transform(manifest_.frame_id, "anemometer", place, stamp));
-    write_static_frames(bag_, frames, stamp, "make_bag");
+    write_static_frames(*bag_, frames, stamp, "make_bag");
   }
 
   /// The ground's height in the map: the median of the first cloud, zero when its place in the map is not
@@ -187,18 +185,12 @@ class BagMaker {
   std::vector<Step> steps_;
   std::optional<PointCloud> first_cloud_;  ///< read early for the ground's height
   std::size_t points_ = 0;
-  rosbag::Bag bag_;
+  rosbag::Bag* bag_ = nullptr;
 };
 
 std::string make_bag(const std::string& manifest, const std::string& out) {
   BagMaker maker(ManifestReader(manifest).read());
-  write_atomically(out, [&](const std::string& temporary) {
-    try {
-      maker.write(temporary);
-    } catch (const rosbag::BagException& error) {
-      throw Error("bag '" + out + "': " + error.what());
-    }
-  });
+  write_bag_atomically(out, [&](rosbag::Bag& bag) { maker.write(bag); });
   return maker.summary();
 }
 

@@ -17,6 +17,7 @@
 #include "aeolian_core/surface/surface.hpp"
 #include "aeolian_twin/tools/field_bag.hpp"
 #include "aeolian_twin/tools/field_day.hpp"
+#include "aeolian_twin/tools/output_bag.hpp"
 #include "aeolian_twin/tools/program.hpp"
 
 namespace aeolian {
@@ -212,10 +213,9 @@ void simulate(const FieldDay& day, const std::string& directory) {
   make_directory(directory);
   clear_truth(directory + "/truth");
   write_text_atomically(directory + "/shadow_setup.yaml", shadow_setup(day));
-  write_atomically(directory + "/field_day.bag", [&](const std::string& temporary) {
-    FieldBag bag(temporary, day.start);
+  write_bag_atomically(directory + "/field_day.bag", [&](rosbag::Bag& file) {
+    FieldBag bag(file, day.start);
     Simulation(day, directory, bag).run();
-    bag.close();
   });
 }
 
