@@ -14,6 +14,9 @@ constexpr int coarsest_step = 8;  // 48 pixels
 constexpr double room = 0.8;
 /// [s]. A software renderer's cost some 0.6e-6 s: more is another's load that came at the wrong moment.
 constexpr double dearest_triangle = 1e-6;
+/// [s]. Reckoned where the frame takes too long: a lighter load at the right moment makes triangles seem
+/// free.
+constexpr double cheapest_triangle = 1e-7;
 
 }  // namespace
 
@@ -35,6 +38,7 @@ void FrameBudget::add_frame(double seconds, const Triangles& triangles) {
   if (last > 0 && std::abs(count - last) > 0.3 * last)
     triangle_seconds_ = std::max((median_ - before) / (count - last), 0.0);
   triangle_seconds_ = std::min({triangle_seconds_, most, dearest_triangle});
+  if (median_ > budget_) triangle_seconds_ = std::max(triangle_seconds_, cheapest_triangle);
   last_triangles_ = now;
 
   // Where others take the budget, drawing badly would not save the frame.

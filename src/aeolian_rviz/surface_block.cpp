@@ -199,7 +199,7 @@ void SurfaceBlock::set_transparency() {
     unit->setAlphaOperation(Ogre::LBX_MODULATE, Ogre::LBS_TEXTURE, Ogre::LBS_MANUAL, 1, alpha_);
   else
     unit->setAlphaOperation(Ogre::LBX_SOURCE1, Ogre::LBS_TEXTURE, Ogre::LBS_CURRENT);
-  // The test makes a software renderer slower by half.
+  // The test keeps a renderer from sorting out hidden pixels early.
   if (holes_)
     pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, static_cast<unsigned char>(127 * alpha_));
   else

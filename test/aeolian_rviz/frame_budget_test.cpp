@@ -65,7 +65,17 @@ TEST(FrameBudget, BecomesFineAgainWhenThereIsRoom) {
 
 TEST(FrameBudget, DoesNotDrawBadlyForTheLoadOfOthers) {
   FrameBudget budget(0.04);
-  EXPECT_EQ(settle(budget, {0.2, 1e-8}), std::set<double>{3});
+  EXPECT_LE(*settle(budget, {0.2, 1e-8}).rbegin(), 12);
+}
+
+TEST(FrameBudget, IsNotMisledForLongByALoadThatWentWithATriangleCount) {
+  FrameBudget budget(0.04);
+  const Machine machine{0.02, 1e-6};
+  settle(budget, machine);
+  const double settled = budget.quad_pixels();
+  for (int i = 0; i < 7; ++i) budget.add_frame(3, [](double) { return std::size_t{1000}; });
+  for (int i = 0; i < 7; ++i) budget.add_frame(0.03, triangles);
+  EXPECT_EQ(settle(budget, machine), std::set<double>{settled});
 }
 
 TEST(FrameBudget, SurvivesAViewWithoutTriangles) {
