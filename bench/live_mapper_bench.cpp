@@ -31,7 +31,7 @@ using namespace aeolian;
 constexpr double height_of_sensor = 1.2;
 constexpr double noise = 0.0006;
 constexpr double rate = 10;
-constexpr int warm_up = 50;
+constexpr int warm_up = 300;  // a still bed is known to be still after some 20 s
 constexpr int measured = 150;
 
 /// A program beside this one.

@@ -22,6 +22,8 @@ constexpr double greatest_delay = 10;
 /// Milliseconds that the cells can count, less a reserve.
 constexpr double longest_time = 4e9;
 constexpr std::size_t points_at_once = 16384;
+/// A still tile gathers scans for this part of the time for which a bed goes on rising or sinking.
+constexpr double gathering_share = 1.0 / 128;
 
 void require(bool allowed, const char* name, double value, const char* what) {
   if (!allowed)
@@ -152,6 +154,8 @@ HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters&
   rules_.scale = PointScale(rules_.gate.weight_scale);
   rules_.robust = parameters.robust;
   rules_.patience = parameters.gate_patience;
+  rules_.gathering_time =
+      static_cast<std::uint32_t>(std::min(1e3 * parameters.change.rate_time * gathering_share, 1e5));
   rules_.first_rate_variance = parameters.change.rate_sigma * parameters.change.rate_sigma;
   rules_.known_rate_variance = static_cast<float>(0.5 * rules_.first_rate_variance);
   workers_ = std::make_unique<Workers>(parameters.change);
@@ -232,7 +236,7 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           const FusionTile::Result of_tile = tile.publish(rows, rules_, layers);
           own.outlier_cells += of_tile.outlier_cells;
           own.outliers += of_tile.outliers;
-          if (agreeing + of_tile.new_cells > 0) {
+          if ((of_tile.written && agreeing > 0) || of_tile.new_cells > 0) {
             const int tiles_x = result.changed.tiles_x();
             result.changed.set_tile(static_cast<int>(at) % tiles_x, static_cast<int>(at) / tiles_x);
           }

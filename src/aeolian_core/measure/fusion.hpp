@@ -46,7 +46,8 @@ struct FusionResult {
 
 /// The live height map. Each cell tracks height and rate of change of the bed (HeightChange) and, as long as
 /// its tile of 32 x 32 cells is still, averages on without end; points are weighed by SensorNoise. One pass
-/// over the points, no separate step.
+/// over the points, no separate step. A still tile takes quick scans together (those within 1/128 of
+/// rate_time): its layers are written once for all of them, with the first.
 ///
 /// Clouds of one stamp are one scan: the map is the same, to the bit, however the scan is cut into clouds, in
 /// which order its points come and how many threads (oneTBB's) work on it. A cloud that is late by less than

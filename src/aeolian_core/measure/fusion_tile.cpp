@@ -65,27 +65,45 @@ FusionTile::Rows FusionTile::rows_of(const Sample* samples, std::size_t count) {
 void FusionTile::open(std::uint32_t scan, std::uint32_t time, Rows rows, const FusionRules& rules,
                       HeightSteps& steps, const TileLayers& layers) {
   if (scan != scan_) {
-    take_set_aside(rules);
-    TileMotion motion;
-    for_each_row(open_, [&](std::size_t y) {
-      prefetch(&rows_[y] + 1, sizeof(FilterRow));
-      if (y < layers.rows) prefetch(layers.row(y), layers.columns);
-      const bool goes_on = (rows >> y & 1U) != 0;
-      const HeightStep step = goes_on ? steps.after(time - row_time_[y]) : HeightStep();
-      motion.add(close_scan(rows_[y], still_, rules.scale, rules.known_rate_variance, step));
-      if (goes_on) row_time_[y] = time;
-    });
-    judge_motion(motion);
-    open_ &= rows;
+    gathers_ = gathers_on(time, rules);
+    if (!gathers_) close(time, rows, rules, steps, layers);
     scan_ = scan;
     time_ = time;
   }
+  open_rows(rows, steps);
+}
+
+void FusionTile::open_rows(Rows rows, HeightSteps& steps) {
   for_each_row(rows & ~open_, [&](std::size_t y) {
     const bool restart_still = still_ && row_time_[y] < still_since_;
     predict(rows_[y], steps.after(time_ - row_time_[y]), restart_still);
     row_time_[y] = time_;
   });
   open_ |= rows;
+}
+
+/// Points that were set aside wait for the next scan, which says more of them.
+bool FusionTile::gathers_on(std::uint32_t time, const FusionRules& rules) const {
+  return still_ && open_ != 0 && set_aside_.empty() && !any_refusals_ &&
+         time - gathering_since_ < rules.gathering_time;
+}
+
+/// Takes the open scan in, and lets those of `rows` that had points in it go on.
+void FusionTile::close(std::uint32_t time, Rows rows, const FusionRules& rules, HeightSteps& steps,
+                       const TileLayers& layers) {
+  take_set_aside(rules);
+  TileMotion motion;
+  for_each_row(open_, [&](std::size_t y) {
+    prefetch(&rows_[y] + 1, sizeof(FilterRow));
+    if (y < layers.rows) prefetch(layers.row(y), layers.columns);
+    const bool goes_on = (rows >> y & 1U) != 0;
+    const HeightStep step = goes_on ? steps.after(time - row_time_[y]) : HeightStep();
+    motion.add(close_scan(rows_[y], still_, rules.scale, rules.known_rate_variance, step));
+    if (goes_on) row_time_[y] = time;
+  });
+  judge_motion(motion);
+  open_ &= rows;
+  gathering_since_ = time;
 }
 
 std::size_t FusionTile::add(const Sample* samples, std::size_t count, const FusionRules& rules) {
@@ -184,10 +202,12 @@ void FusionTile::sort_set_aside() {
 }
 
 FusionTile::Result FusionTile::publish(Rows rows, const FusionRules& rules, const TileLayers& layers) {
-  for_each_row(rows, [&](std::size_t y) {
-    write_estimates(rows_[y], still_, rules.scale, layers.row(y), layers.columns);
-  });
   Result result;
+  result.written = !gathers_;
+  if (!gathers_)
+    for_each_row(rows, [&](std::size_t y) {
+      write_estimates(rows_[y], still_, rules.scale, layers.row(y), layers.columns);
+    });
   if (set_aside_.empty()) return result;
 
   const auto write = [&](std::size_t at, const CellEstimate& estimate) {
@@ -206,6 +226,9 @@ FusionTile::Result FusionTile::publish(Rows rows, const FusionRules& rules, cons
     } else if (verdict == Verdict::refused) {
       ++result.outlier_cells;
       result.outliers += sum.count;
+      write(at, estimate(row(at), at % side, still_, rules.scale));
+    } else if (gathers_) {
+      result.written = true;
       write(at, estimate(row(at), at % side, still_, rules.scale));
     }
   });
@@ -234,9 +257,12 @@ void FusionTile::forget_cell(std::size_t cell) {
 }
 
 void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {
-  open(scan_ + 1, end, ~Rows{0}, rules, steps, {});
+  close(end, ~Rows{0}, rules, steps, {});
+  time_ = end;
+  open_rows(~Rows{0}, steps);
   open_ = 0;
   row_time_.fill(0);
+  gathering_since_ = 0;
   still_since_ = 0;
   scan_ = 0;
   time_ = 0;

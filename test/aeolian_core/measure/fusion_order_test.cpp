@@ -100,6 +100,52 @@ TEST_F(FusionOrder, OfChunksOfBandsOfABedThatRestsAndMoves) {
   expect_same_bits(map(6000), map(700));
 }
 
+/// At 10 Hz a still tile takes several scans together; sometimes a grain flies; then ripples begin to
+/// migrate.
+TEST_F(FusionOrder, OfChunksOfQuickScansOfABedThatRestsAndMoves) {
+  constexpr int still_scans = 300;
+  constexpr int moving_scans = 200;
+  constexpr double deposition = 6e-5;  // [m/s]
+  const auto bed = [](double x, double time) {
+    return 0.0005 * std::sin(60 * x) + deposition * std::max(0.0, time - 0.1 * still_scans);
+  };
+  const GridGeometry geometry(0, 0, 0.01, 64, 64);
+  int tiles_written = 0;  // in the last five seconds of rest
+  const auto map = [&](std::size_t chunk) {
+    HeightFusion fusion(geometry, FusionParameters());
+    tiles_written = 0;
+    for (int k = 0; k < still_scans + moving_scans; ++k) {
+      const double time = 0.1 * k;
+      RandomStream random(9, static_cast<std::uint64_t>(k));
+      std::vector<Eigen::Vector3d> points;
+      for (int i = 0; i < 1500; ++i) {
+        const double x = 0.64 * random.uniform();
+        const bool flies = k % 7 == 0 && i % 500 == 0;
+        points.emplace_back(x, 0.64 * random.uniform(),
+                            bed(x, time) + 0.0008 * random.normal() + (flies ? 0.03 : 0));
+      }
+      const PointCloud cloud = seen_from(pose(), points);
+      for (std::size_t at = 0; at < cloud.size(); at += chunk) {
+        const FusionResult result =
+            fusion.add(part(cloud, at, std::min(at + chunk, cloud.size())), pose(), time);
+        if (k >= still_scans - 50 && k < still_scans) tiles_written += result.changed.count();
+      }
+    }
+    return fusion.map();
+  };
+  const HeightMap at_once = map(1500);
+  EXPECT_LT(tiles_written, 50 * 4 / 2);
+  expect_same_bits(at_once, map(200));
+
+  double squares = 0;
+  for (std::size_t i = 0; i < geometry.size(); ++i) {
+    const double truth = bed(geometry.x(geometry.cell_at(i).x), 0.1 * (still_scans + moving_scans - 1));
+    const double error = static_cast<double>(at_once.layer(layer::elevation)[i]) - truth;
+    squares += error * error;
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(geometry.size())), 0.0004) << "1.2 mm have fallen";
+}
+
 TEST_F(FusionOrder, OfThreads) {
   HeightMap one;
   tbb::task_arena(1).execute([&] { one = whole(); });
