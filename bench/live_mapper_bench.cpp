@@ -4,21 +4,16 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include <fcntl.h>
+#include "child_process.hpp"
+#include "own_master.hpp"
 #include <fmt/format.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <unistd.h>
 
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
@@ -33,40 +28,6 @@ constexpr double noise = 0.0006;
 constexpr double rate = 10;
 constexpr int warm_up = 300;  // a still bed is known to be still after some 20 s
 constexpr int measured = 150;
-
-/// A program beside this one.
-class Child {
- public:
-  explicit Child(const std::vector<std::string>& command) : pid_(fork()) {
-    if (pid_ != 0) return;
-    const int nothing = open("/dev/null", O_WRONLY);
-    dup2(nothing, STDOUT_FILENO);
-    dup2(nothing, STDERR_FILENO);
-    std::vector<char*> argv;
-    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execvp(argv[0], argv.data());
-    _exit(127);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    kill(pid_, SIGINT);
-    waitpid(pid_, nullptr, 0);
-  }
-
-  /// Processor time so far [s].
-  double seconds() const {
-    std::ifstream file(fmt::format("/proc/{}/stat", pid_));
-    std::string text(std::istreambuf_iterator<char>(file), {});
-    std::istringstream fields(text.substr(text.rfind(')') + 2));
-    const std::vector<std::string> words{std::istream_iterator<std::string>(fields), {}};
-    return (std::stod(words[11]) + std::stod(words[12])) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  }
-
- private:
-  pid_t pid_;
-};
 
 struct Scene {
   std::string name;
@@ -104,9 +65,11 @@ void send_pose(tf2_ros::StaticTransformBroadcaster& broadcaster) {
 }
 
 void measure(const Scene& scene, ros::NodeHandle& node) {
-  Child mapper({std::string(AEOLIAN_BIN) + "/height_mapper", "_cell_size:=0.002", "_min_x:=-1", "_min_y:=-1",
-                "_length_x:=2", "_length_y:=2", "_range_sigma:=" + std::to_string(noise),
-                fmt::format("_incremental:={}", scene.incremental)});
+  const ChildProcess mapper(
+      {std::string(AEOLIAN_BIN) + "/height_mapper", "_cell_size:=0.002", "_min_x:=-1", "_min_y:=-1",
+       "_length_x:=2", "_length_y:=2", "_range_sigma:=" + std::to_string(noise),
+       fmt::format("_incremental:={}", scene.incremental)},
+      SIGINT, ChildProcess::Output::dropped);
   ros::Publisher points = node.advertise<sensor_msgs::PointCloud2>("points", 4);
   while (ros::ok() && points.getNumSubscribers() == 0) ros::WallDuration(0.1).sleep();
 
@@ -130,7 +93,7 @@ void measure(const Scene& scene, ros::NodeHandle& node) {
   ros::WallRate tick(rate);
   for (int i = 0; i < warm_up + measured && ros::ok(); ++i) {
     if (i == warm_up) {
-      before = mapper.seconds();
+      before = mapper.processor_seconds();
       messages = 0;
       bytes = 0;
     }
@@ -148,7 +111,7 @@ void measure(const Scene& scene, ros::NodeHandle& node) {
   ros::spinOnce();
   const double seconds = measured / rate;
   std::printf("| %-44s | %7d | %5.1f | %6.1f | %6.1f |\n", scene.name.c_str(), scene.columns * scene.rows,
-              100 * (mapper.seconds() - before) / seconds, static_cast<double>(messages) / seconds,
+              100 * (mapper.processor_seconds() - before) / seconds, static_cast<double>(messages) / seconds,
               1e-6 * bytes / seconds);
   std::fflush(stdout);
 }
@@ -156,11 +119,9 @@ void measure(const Scene& scene, ros::NodeHandle& node) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string port = std::to_string(20000 + getpid() % 20000);
-  setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port).c_str(), 1);
-  const Child master({"roscore", "-p", port});
+  const bench::OwnMaster master;
   ros::init(argc, argv, "live_mapper_bench", ros::init_options::NoSigintHandler);
-  while (!ros::master::check()) usleep(100000);
+  while (!ros::master::check()) ros::WallDuration(0.1).sleep();
   ros::NodeHandle node;
   tf2_ros::StaticTransformBroadcaster broadcaster;
   send_pose(broadcaster);

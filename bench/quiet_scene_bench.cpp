@@ -8,21 +8,16 @@
 
 #include <array>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "child_process.hpp"
+#include "own_master.hpp"
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "aeolian_core/surface/random.hpp"
@@ -31,41 +26,6 @@
 
 namespace aeolian {
 namespace {
-
-/// A program that runs beside this one until it goes out of scope.
-class Process {
- public:
-  Process(const std::string& program, std::vector<std::string> arguments) : pid_(fork()) {
-    if (pid_ != 0) return;
-    std::vector<char*> argv{const_cast<char*>(program.c_str())};
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    execvp(program.c_str(), argv.data());
-    _exit(127);
-  }
-  ~Process() {
-    kill(pid_, SIGINT);
-    waitpid(pid_, nullptr, 0);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  /// Time that it has spent on processors [s].
-  double cpu_seconds() const {
-    std::ifstream file(fmt::format("/proc/{}/stat", pid_));
-    std::string stat((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    std::istringstream fields(stat.substr(stat.rfind(')') + 2));  // the name may hold blanks
-    std::string skipped;
-    for (int i = 0; i < 11; ++i) fields >> skipped;
-    double user = 0;
-    double system = 0;
-    fields >> user >> system;
-    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  }
-
- private:
-  pid_t pid_;
-};
 
 constexpr double rate = 10;  // [Hz]
 constexpr int messages = 150;
@@ -140,19 +100,16 @@ void spin_for(double seconds) {
 }
 
 int run(int argc, char** argv) {
-  const std::string port = std::to_string(20000 + ::getpid() % 20000);
-  setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port).c_str(), 1);
-  setenv("ROS_IP", "127.0.0.1", 1);
-  const Process master("rosmaster", {"--core", "-p", port});
+  const bench::OwnMaster master;
   ros::init(argc, argv, "quiet_scene_bench", ros::init_options::NoSigintHandler);
   while (!ros::master::check()) ros::WallDuration(0.1).sleep();
 
   const std::string here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const Process display(here + "/surface_display",
-                        {"map:=height_map", "map_updates:=height_map_updates", "_title:=Measured"});
-  const Process forecaster(here + "/forecaster", {"_period:=10", "_max_gap:=30"});
-  const Process comparator(here + "/comparator", {});
-  const std::array<const Process*, 3> nodes{&display, &forecaster, &comparator};
+  const ChildProcess display(
+      {here + "/surface_display", "map:=height_map", "map_updates:=height_map_updates", "_title:=Measured"});
+  const ChildProcess forecaster({here + "/forecaster", "_period:=10", "_max_gap:=30"});
+  const ChildProcess comparator({here + "/comparator"});
+  const std::array<const ChildProcess*, 3> nodes{&display, &forecaster, &comparator};
 
   Scene scene;
   while (!scene.connected()) spin_for(0.1);
@@ -175,7 +132,7 @@ int run(int argc, char** argv) {
              "surface_display", "forecaster", "comparator", "meshes", messages / rate);
   for (const Case& what : cases) {
     std::vector<double> before;
-    for (const Process* node : nodes) before.push_back(node->cpu_seconds());
+    for (const ChildProcess* node : nodes) before.push_back(node->processor_seconds());
     scene.pictures = 0;
     const ros::WallTime start = ros::WallTime::now();
     for (int i = 0; i < messages; ++i) {
@@ -186,7 +143,7 @@ int run(int argc, char** argv) {
     const double seconds = (ros::WallTime::now() - start).toSec();
     fmt::print("{:<24}", what.name);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      fmt::print("{:>{}.2f}", 100 * (nodes[i]->cpu_seconds() - before[i]) / seconds, i == 0 ? 16 : 13);
+      fmt::print("{:>{}.2f}", 100 * (nodes[i]->processor_seconds() - before[i]) / seconds, i == 0 ? 16 : 13);
     fmt::print("{:>12}\n", scene.pictures);
     std::fflush(stdout);
   }

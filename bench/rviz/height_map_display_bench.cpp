@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "../own_master.hpp"
 #include "aeolian_rviz/height_map_display.hpp"
+#include "child_process.hpp"
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
@@ -106,12 +107,7 @@ class Bench {
   }
 
   void run(const Case& c) {
-    const pid_t publisher = fork();
-    if (publisher == 0) {
-      const std::string size = std::to_string(&c - cases.data());
-      execl("/proc/self/exe", "height_map_display_bench", "--publish", size.c_str(), nullptr);
-      _exit(127);
-    }
+    const ChildProcess publisher({"/proc/self/exe", "--publish", std::to_string(&c - cases.data())}, SIGKILL);
     rviz::DisplayGroup& displays = *frame_.getManager()->getRootDisplayGroup();
     auto* display = dynamic_cast<HeightMapDisplay*>(displays.getDisplayAt(0));
     display->reset();
@@ -139,8 +135,6 @@ class Bench {
                display->seen()->mesh().drawn_triangles());
     std::fflush(stdout);
     frames.stop();
-    kill(publisher, SIGKILL);
-    waitpid(publisher, nullptr, 0);
   }
 
  private:
@@ -160,17 +154,6 @@ class Bench {
   bool smooth_;
   rviz::VisualizationFrame frame_;
 };
-
-pid_t start_master() {
-  const std::string port = std::to_string(20000 + std::random_device()() % 20000);
-  setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port).c_str(), 1);
-  setenv("ROS_IP", "127.0.0.1", 1);
-  const pid_t master = fork();
-  if (master != 0) return master;
-  if (!std::freopen("/dev/null", "w", stdout)) _exit(127);
-  execlp("rosmaster", "rosmaster", "--core", "-p", port.c_str(), nullptr);
-  _exit(127);
-}
 
 /// All cases in one rviz.
 int draw_all(bool smooth) {
@@ -212,14 +195,12 @@ int main(int argc, char** argv) {
     return 1;
   }
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  const pid_t master = start_master();
+  const bench::OwnMaster master;
   fmt::print(
       "| cells | at 10 Hz | anti-aliasing | frames/s | maps/s | age of the map seen, median | worst | "
       "processor time of "
       "a frame | largest quad, pixels | triangles |\n|---|---|---|---|---|---|---|---|---|---|\n");
   std::fflush(stdout);
   const int failed = run_self("--draw", "smooth") | run_self("--draw", "plain");
-  kill(master, SIGINT);
-  waitpid(master, nullptr, 0);
   return failed == 0 ? 0 : 1;
 }

@@ -71,9 +71,10 @@ class HeightMapDisplayTest : public testing::Test {
     screen_ = std::make_unique<OffScreen>(width, height);
     if (!screen_->works()) return;
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    rviz_ = std::make_unique<Child>(
+    rviz_ = std::make_unique<ChildProcess>(
         std::vector<std::string>{AEOLIAN_DEVEL "/env.sh", "rviz", "--fullscreen", "-d",
-                                 AEOLIAN_REPOSITORY "/test/aeolian_rviz/height_map_display.rviz"});
+                                 AEOLIAN_REPOSITORY "/test/aeolian_rviz/height_map_display.rviz"},
+        SIGTERM);
   }
   static void TearDownTestSuite() {
     rviz_.reset();
@@ -120,7 +121,7 @@ class HeightMapDisplayTest : public testing::Test {
   }
 
   static std::unique_ptr<OffScreen> screen_;
-  static std::unique_ptr<Child> rviz_;
+  static std::unique_ptr<ChildProcess> rviz_;
   ros::NodeHandle nh_;
   ros::Publisher whole_ = nh_.advertise<grid_map_msgs::GridMap>("height_map", 1, /*latch=*/true);
   ros::Publisher parts_ = nh_.advertise<grid_map_msgs::GridMap>("height_map_updates", 10);
@@ -128,7 +129,7 @@ class HeightMapDisplayTest : public testing::Test {
   std_msgs::Header header_;
 };
 std::unique_ptr<OffScreen> HeightMapDisplayTest::screen_;
-std::unique_ptr<Child> HeightMapDisplayTest::rviz_;
+std::unique_ptr<ChildProcess> HeightMapDisplayTest::rviz_;
 
 TEST_F(HeightMapDisplayTest, ShowsTheSignOfTheDifferenceAndTheHole) {
   EXPECT_TRUE(shows(world(), [](const Picture& p) {

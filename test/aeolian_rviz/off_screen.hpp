@@ -7,34 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <sys/wait.h>
+#include "child_process.hpp"
 #include <unistd.h>
 
 namespace aeolian {
-
-/// A program in the background, ended with the object.
-class Child {
- public:
-  explicit Child(std::vector<std::string> arguments) : pid_(fork()) {
-    if (pid_ != 0) return;
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    execvp(argv[0], argv.data());
-    _exit(127);
-  }
-  ~Child() {
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  bool lives() const { return waitpid(pid_, nullptr, WNOHANG) == 0; }
-
- private:
-  pid_t pid_;
-};
 
 inline bool is_installed(const std::string& program) {
   return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
@@ -79,9 +55,10 @@ class OffScreen {
     int ends[2];
     if (pipe(ends) != 0) return;
     const std::string size = std::to_string(width) + "x" + std::to_string(height) + "x24";
-    server_ = std::make_unique<Child>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]),
-                                                               "-screen", "0", size, "+extension", "GLX",
-                                                               "-nolisten", "tcp"});
+    server_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", size,
+                                 "+extension", "GLX", "-nolisten", "tcp"},
+        SIGTERM);
     close(ends[1]);
     std::string number;
     char c = 0;
@@ -96,7 +73,7 @@ class OffScreen {
   bool works() const { return works_; }
 
  private:
-  std::unique_ptr<Child> server_;
+  std::unique_ptr<ChildProcess> server_;
   bool works_ = false;
 };
 

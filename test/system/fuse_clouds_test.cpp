@@ -6,33 +6,29 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "../shared_data.hpp"
 #include "../temporary_folder.hpp"
+#include "program_outcome.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/cloud_file.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
 
 const std::string sensors = AEOLIAN_REPOSITORY "/config/sensors/";
 
-std::filesystem::path shared_data() {
-  const char* given = std::getenv("AEOLIAN_SHARED_DATA");
-  return given != nullptr ? std::filesystem::path(given)
-                          : std::filesystem::path(AEOLIAN_REPOSITORY) / "../shared/data";
-}
-
 class FuseClouds : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.file(name); }
 
   /// Exit code; what it printed is in `text`.
-  int run(const std::string& arguments, std::string& text) const {
-    FILE* pipe = popen((AEOLIAN_BIN "/fuse_clouds " + arguments + " 2>&1").c_str(), "r");
-    text.clear();
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-    return WEXITSTATUS(pclose(pipe));
+  static int run(const std::string& arguments, std::string& text) {
+    const Outcome outcome = run_program("fuse_clouds " + arguments);
+    text = outcome.out + outcome.err;
+    return outcome.code;
   }
   HeightMap fuse(const std::string& arguments) const {
     std::string text;
@@ -106,9 +102,7 @@ TEST_F(FuseClouds, RegistersEachCloudOntoTheMapOfThoseBefore) {
       const double height = static_cast<double>(map.layer("elevation")[i]);
       if (std::isfinite(height)) errors.push_back(std::abs(height - truth));
     }
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                     errors.end());
-    return errors[errors.size() / 2];
+    return median(errors);
   };
   ASSERT_EQ(run(a + " " + b + common, text), 0) << text;
   EXPECT_GT(error(), 0.0015);
@@ -157,12 +151,6 @@ TEST_F(FuseClouds, EverySensorOfTheConfigurationIsRead) {
     ++count;
   }
   EXPECT_GE(count, 6U);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class AirborneScan : public FuseClouds, public testing::WithParamInterface<const char*> {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../shared_data.hpp"
 #include "../small_disk.hpp"
 #include "../temporary_folder.hpp"
 #include "program_outcome.hpp"
@@ -397,11 +398,9 @@ TEST_F(MakeBag, SaysHowItIsCalled) {
 class MakeBagOfRealScans : public MakeBag {
  protected:
   void SetUp() override {
-    const char* shared = std::getenv("AEOLIAN_SHARED_DATA");
-    data_ = shared ? shared : std::string(AEOLIAN_REPOSITORY) + "/../shared/data";
     if (!fs::exists(data_)) GTEST_SKIP() << "there is no " << data_;
   }
-  fs::path data_;
+  const fs::path data_ = shared_data();
 };
 
 TEST_F(MakeBagOfRealScans, LidarInUtmCoordinates) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../shared_data.hpp"
 #include "ros_test.hpp"
 #include <geometry_msgs/TransformStamped.h>
 #include <grid_map_msgs/GridMap.h>
@@ -19,16 +20,11 @@
 #include <unistd.h>
 
 #include "aeolian_core/surface/cloud_file.hpp"
+#include "aeolian_core/surface/median.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 
 namespace aeolian {
 namespace {
-
-std::filesystem::path shared_data() {
-  const char* given = std::getenv("AEOLIAN_SHARED_DATA");
-  return given != nullptr ? std::filesystem::path(given)
-                          : std::filesystem::path(AEOLIAN_REPOSITORY) / "../shared/data";
-}
 
 /// The points in true coordinates as doubles.
 sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, const std::string& frame,
@@ -48,12 +44,6 @@ sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, const std::string& 
     xyz[2] = cloud.origin_z + static_cast<double>(cloud.z[i]);
   }
   return message;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What a map has to do with the points from which it was made; heights are `base + up * z`.

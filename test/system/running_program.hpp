@@ -4,43 +4,36 @@
 #include <string>
 #include <vector>
 
+#include "../child_process.hpp"
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace aeolian {
 
 /// One of our programs, running beside the test until this goes out of scope.
 class RunningProgram {
  public:
-  RunningProgram(const std::string& name, std::vector<std::string> arguments) : pid_(fork()) {
-    if (pid_ != 0) return;
-    const std::string path = std::string(AEOLIAN_BIN) + "/" + name;
-    std::vector<char*> argv{const_cast<char*>(path.c_str())};
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    execv(path.c_str(), argv.data());
-    _exit(127);
-  }
+  RunningProgram(const std::string& name, std::vector<std::string> arguments)
+      : child_(command(name, std::move(arguments))) {}
   ~RunningProgram() {
-    if (killed_) return;
-    EXPECT_TRUE(lives());
-    kill(pid_, SIGINT);
-    waitpid(pid_, nullptr, 0);
+    if (!killed_) EXPECT_TRUE(lives());
   }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
   /// Without a chance to tidy up.
   void kill_now() {
-    kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
+    child_.end(SIGKILL);
     killed_ = true;
   }
-  bool lives() const { return waitpid(pid_, nullptr, WNOHANG) == 0; }
+  bool lives() const { return child_.lives(); }
 
  private:
-  pid_t pid_;
+  static std::vector<std::string> command(const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), std::string(AEOLIAN_BIN) + "/" + name);
+    return arguments;
+  }
+
+  ChildProcess child_;
   bool killed_ = false;
 };
 

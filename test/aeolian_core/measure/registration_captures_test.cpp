@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "../../shared_data.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 
@@ -47,10 +48,7 @@ Eigen::Isometry3d rough_pose(std::size_t capture) {
   return looking_down(0, 0, 0) * pose;
 }
 
-std::string folder() {
-  const char* given = std::getenv("AEOLIAN_SHARED_DATA");
-  return std::string(given != nullptr ? given : AEOLIAN_REPOSITORY "/../shared/data") + "/depth-camera";
-}
+std::string folder() { return (shared_data() / "depth-camera").string(); }
 
 class Captures : public ::testing::Test {
  protected:

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "../../shared_data.hpp"
 #include "../../temporary_folder.hpp"
 #include <gtest/gtest.h>
 
@@ -266,9 +267,7 @@ TEST_F(CloudFile, WritesFinitePointsOnlyAndAllOrNothing) {
 }
 
 TEST(RealScans, AirborneLidarInUtmCoordinates) {
-  const char* shared = std::getenv("AEOLIAN_SHARED_DATA");
-  const std::filesystem::path data = shared ? shared : std::string(AEOLIAN_REPOSITORY) + "/../shared/data";
-  const std::filesystem::path scan = data / "lidar-terrain/samp53-utm.pcd";
+  const std::filesystem::path scan = shared_data() / "lidar-terrain/samp53-utm.pcd";
   if (!std::filesystem::exists(scan)) GTEST_SKIP() << "there is no " << scan;
   const PointCloud cloud = read_cloud(scan.string());
   const auto wide = [](const std::vector<float>& v) {
