@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aeolian_core/surface/median.hpp"
+
 namespace aeolian {
 namespace {
 
@@ -25,9 +27,8 @@ double FrameBudget::size(int step) { return finest_quad_pixels * std::pow(2, ste
 void FrameBudget::add_frame(double seconds, const Triangles& triangles) {
   frames_.push_back(seconds);
   if (frames_.size() < frames_of_a_decision) return;
-  std::nth_element(frames_.begin(), frames_.begin() + frames_of_a_decision / 2, frames_.end());
   const double before = median_;
-  median_ = frames_[frames_of_a_decision / 2];
+  median_ = median(frames_);
   frames_.clear();
 
   const std::size_t now = triangles(quad_pixels());

@@ -180,7 +180,7 @@ TEST_P(AirborneScan, RobustModeFindsTheGround) {
   ASSERT_GT(differences.size(), 5000U);
   const double middle = median(differences);
   for (double& d : differences) d = std::abs(d - middle);
-  const double nmad = 1.4826 * median(differences);
+  const double nmad = sigma_per_median * median(differences);
   const double share = near / static_cast<double>(differences.size());
   RecordProperty("nmad_m", std::to_string(nmad));
   RecordProperty("share_within_half_a_metre", std::to_string(share));

@@ -15,8 +15,8 @@ namespace aeolian {
 inline std::vector<double> biweights(std::vector<double> distances,
                                      double farthest = std::numeric_limits<double>::infinity()) {
   for (double& distance : distances) distance = std::abs(distance);
-  const double end =
-      std::max(std::min(4.685 * 1.4826 * median(distances), farthest), std::numeric_limits<double>::min());
+  const double end = std::max(std::min(4.685 * sigma_per_median * median(distances), farthest),
+                              std::numeric_limits<double>::min());
   for (double& distance : distances) {
     const double rest = 1 - std::pow(distance / end, 2);
     distance = rest > 0 ? rest * rest : 0;

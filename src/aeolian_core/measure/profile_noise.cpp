@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/surface/median.hpp"
+#include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 
@@ -13,7 +13,7 @@ double neighbour_noise(const std::vector<double>& z) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < z.size(); ++i) bends.push_back(std::abs(z[i] - 2 * z[i - 1] + z[i - 2]));
   if (bends.empty()) return 0;
-  return 1.4826 * median(bends) / std::sqrt(6.0);
+  return sigma_per_median * median(bends) / std::sqrt(6.0);
 }
 
 ProfileNoise::ProfileNoise(std::vector<double> sigma, std::size_t correlated)

@@ -24,7 +24,6 @@ using Points = std::vector<Eigen::Vector3d>;
 
 /// Steps below this part of a cell end the iteration.
 constexpr double step_per_cell = 5e-3;
-constexpr double sigma_per_median = 1.4826;  // of the size of normal noise
 /// Side of NDT's voxels, in cells of the map.
 constexpr double cells_per_voxel = 10;
 

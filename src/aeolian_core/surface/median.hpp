@@ -7,6 +7,9 @@
 
 namespace aeolian {
 
+/// Standard deviation of normal noise over the median of its sizes.
+constexpr double sigma_per_median = 1.4826;
+
 /// The middle of some values, the upper of the two middle ones of an even count; NaN of none. They must hold
 /// no NaN.
 template <class T>

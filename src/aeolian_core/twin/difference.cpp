@@ -8,12 +8,12 @@
 
 #include "aeolian_core/measure/kernel.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/twin/quantile.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 constexpr float sigmas_of_95_percent = 1.96F;
 constexpr float greatest = std::numeric_limits<float>::max();
 
@@ -140,7 +140,7 @@ DifferenceStatistics difference_statistics(const HeightMap::Layer& difference) {
   result.bias = total(sum) / count;
   result.rmse = std::sqrt(total(sum_of_squares) / count);
   const double middle = quantile_of(difference, result.cells, 0.5);
-  result.nmad = mad_to_sigma * quantile_of_distances(difference, result.cells, 0.5, middle);
+  result.nmad = sigma_per_median * quantile_of_distances(difference, result.cells, 0.5, middle);
   return result;
 }
 

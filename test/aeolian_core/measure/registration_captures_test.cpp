@@ -108,7 +108,7 @@ class Captures : public ::testing::Test {
       const Eigen::Vector3d seen = Eigen::Vector3f(wall.x[i], wall.y[i], wall.z[i]).cast<double>();
       relative.push_back(std::abs((to_plane * seen).z()) / kinect.along_ray(seen.norm(), 1));
     }
-    return 1.4826 * median(std::move(relative));
+    return sigma_per_median * median(std::move(relative));
   }
 
   /// The least of the captures'.
