@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../sloping_plane.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
@@ -17,15 +18,6 @@ std::vector<Rgba> all_colours(const GridGeometry& grid, const HeightMap::Layer& 
   return colours;
 }
 
-HeightMap::Layer plane(const GridGeometry& grid, double slope_x, double slope_y) {
-  HeightMap::Layer values(grid.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const CellIndex cell = grid.cell_at(i);
-    values[i] = static_cast<float>(slope_x * grid.x(cell.x) + slope_y * grid.y(cell.y));
-  }
-  return values;
-}
-
 double brightness(const Rgba& c) { return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]; }
 
 Colouring plain(Palette palette, ValueRange range) {
@@ -38,7 +30,7 @@ Colouring plain(Palette palette, ValueRange range) {
 
 TEST(HeightMapColours, OfAPlaneAreThoseOfPictures) {
   const GridGeometry grid(500000, 4e6, 0.5, 40, 30);
-  HeightMap::Layer heights = plane(GridGeometry(0, 0, 0.5, 40, 30), 0.2, -0.4);
+  HeightMap::Layer heights = sloping_plane(GridGeometry(0, 0, 0.5, 40, 30), 0.2, -0.4);
   Colouring colouring;
   colouring.range = {-2, 3};
   colouring.exaggeration = 2;
@@ -81,7 +73,7 @@ TEST(HeightMapColours, CellsWithoutAValueAreGreyAndSeen) {
 
 TEST(HeightMapColours, ShadingBesideAHoleUsesTheSideThatIsKnown) {
   const GridGeometry grid(0, 0, 1, 5, 5);
-  HeightMap::Layer heights = plane(grid, 0.3, 0);
+  HeightMap::Layer heights = sloping_plane(grid, 0.3, 0);
   Colouring colouring;
   colouring.range = {-100, 100};
   const Rgba whole = all_colours(grid, heights, heights, colouring)[grid.index(2, 2)];
@@ -117,7 +109,7 @@ TEST(HeightMapColours, NoRangeGivesTheMiddleColour) {
 TEST(Contours, PassWhereTheHeightIsAMultipleOfTheInterval) {
   const GridGeometry grid(0, 0, 1, 100, 3);
   // Ten cells a line, the first through the centre of cell 10.
-  HeightMap::Layer heights = plane(grid, 0.1, 0);
+  HeightMap::Layer heights = sloping_plane(grid, 0.1, 0);
   for (float& z : heights) z -= 0.05F;
   Colouring colouring = plain(Palette::grey, {0, 1});
   colouring.contour_interval = 1;
@@ -132,7 +124,7 @@ TEST(Contours, AreNotDrawnOnLevelGroundNorWhereTheyWouldFillTheArea) {
   const GridGeometry grid(0, 0, 1, 20, 20);
   Colouring colouring = plain(Palette::grey, {0, 1});
   for (const double slope : {0.0, 1.0}) {
-    const HeightMap::Layer heights = plane(grid, slope, 0);
+    const HeightMap::Layer heights = sloping_plane(grid, slope, 0);
     colouring.contour_interval = 0;
     const std::vector<Rgba> without = all_colours(grid, heights, heights, colouring);
     colouring.contour_interval = 1;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../sloping_plane.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
@@ -10,22 +11,13 @@ namespace {
 constexpr float nan = HeightMap::unknown;
 const float flat = static_cast<float>(std::sqrt(0.5));
 
-HeightMap::Layer plane(const GridGeometry& grid, double slope_x, double slope_y) {
-  HeightMap::Layer values(grid.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const CellIndex cell = grid.cell_at(i);
-    values[i] = static_cast<float>(slope_x * grid.x(cell.x) + slope_y * grid.y(cell.y));
-  }
-  return values;
-}
-
 TEST(HillShade, OfAPlaneIsTheCosineToTheLamp) {
   const GridGeometry grid(0, 0, 0.5, 6, 4);
   for (const double a : {-0.8, 0.0, 0.3})
     for (const double b : {-0.5, 0.0, 0.9}) {
       // Unit normal times the direction to a lamp in the north-west, 45 degrees high.
       const double cosine = (0.5 * a - 0.5 * b + std::sqrt(0.5)) / std::sqrt(1 + a * a + b * b);
-      for (const float shade : hill_shade(grid, plane(grid, a, b)))
+      for (const float shade : hill_shade(grid, sloping_plane(grid, a, b)))
         EXPECT_NEAR(shade, std::max(0.0, cosine), 1e-5) << a << " " << b;
     }
 }
@@ -33,18 +25,19 @@ TEST(HillShade, OfAPlaneIsTheCosineToTheLamp) {
 TEST(HillShade, IsOneTowardsTheLampAndZeroInItsShadow) {
   const GridGeometry grid(0, 0, 1, 3, 3);
   const double s = std::sqrt(0.5);
-  EXPECT_NEAR(hill_shade(grid, plane(grid, s, -s))[4], 1, 1e-6);
-  EXPECT_EQ(hill_shade(grid, plane(grid, -5, 5))[4], 0);
+  EXPECT_NEAR(hill_shade(grid, sloping_plane(grid, s, -s))[4], 1, 1e-6);
+  EXPECT_EQ(hill_shade(grid, sloping_plane(grid, -5, 5))[4], 0);
 }
 
 TEST(HillShade, ExaggeratesHeights) {
   const GridGeometry grid(0, 0, 1, 3, 3);
-  EXPECT_EQ(hill_shade(grid, plane(grid, 0.125, 0.25), 4), hill_shade(grid, plane(grid, 0.5, 1)));
+  EXPECT_EQ(hill_shade(grid, sloping_plane(grid, 0.125, 0.25), 4),
+            hill_shade(grid, sloping_plane(grid, 0.5, 1)));
 }
 
 TEST(HillShade, UnknownCellsAndThoseBesideThemCountAsFlat) {
   const GridGeometry grid(0, 0, 1, 5, 5);
-  HeightMap::Layer values = plane(grid, 0.5, 0);
+  HeightMap::Layer values = sloping_plane(grid, 0.5, 0);
   values[grid.index(2, 2)] = nan;
   const auto shade = hill_shade(grid, values);
   for (const CellIndex cell : {CellIndex{2, 2}, {1, 2}, {3, 2}, {2, 1}, {2, 3}})
@@ -105,8 +98,8 @@ TEST(ShadedColours, KeepThePaletteOnFlatGroundAndFollowTheReliefElsewhere) {
   const ValueRange range{0, 1};
   const Rgb plain = colour(Palette::sand, 0.5);
   EXPECT_EQ(shaded_colours(grid, values, Palette::sand, range)[4], plain);
-  const auto lit = plane(grid, 0.5, -0.5);
-  const auto dark = plane(grid, -0.5, 0.5);
+  const auto lit = sloping_plane(grid, 0.5, -0.5);
+  const auto dark = sloping_plane(grid, -0.5, 0.5);
   EXPECT_GT(brightness(shaded_colours(grid, values, Palette::sand, range, &lit)[4]), brightness(plain));
   EXPECT_LT(brightness(shaded_colours(grid, values, Palette::sand, range, &dark)[4]), brightness(plain));
 }
