@@ -7,6 +7,7 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/float_fields.hpp"
 
 namespace aeolian {
 namespace {
@@ -125,17 +126,9 @@ PointCloud to_point_cloud(const PointCloud2& message) {
 
 sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width) {
   sensor_msgs::PointCloud2 message;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(message.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    message.fields.push_back(field);
-  }
+  set_float_fields(message, {"x", "y", "z"});
   message.width = static_cast<std::uint32_t>(width > 0 ? width : cloud.size());
   message.height = static_cast<std::uint32_t>(width > 0 ? cloud.size() / width : 1);
-  message.point_step = 3 * sizeof(float);
   message.row_step = message.point_step * message.width;
   message.data.resize(std::size_t{message.row_step} * message.height);
   bool dense = true;

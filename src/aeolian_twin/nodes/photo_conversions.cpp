@@ -8,6 +8,7 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/float_fields.hpp"
 
 namespace aeolian {
 namespace {
@@ -161,17 +162,9 @@ sensor_msgs::PointCloud2 to_cloud(const std::vector<Eigen::Vector3d>& points,
                                   const std::vector<double>& sigma_z, const std_msgs::Header& header) {
   sensor_msgs::PointCloud2 cloud;
   cloud.header = header;
-  for (const char* name : {"x", "y", "z", "sigma_z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(cloud.fields.size() * sizeof(float));
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-  }
+  set_float_fields(cloud, {"x", "y", "z", "sigma_z"});
   cloud.width = static_cast<std::uint32_t>(points.size());
   cloud.height = 1;
-  cloud.point_step = 4 * sizeof(float);
   cloud.row_step = cloud.point_step * cloud.width;
   cloud.is_dense = 1;
   cloud.data.resize(cloud.row_step);
