@@ -1,25 +1,23 @@
 #include "aeolian_core/measure/cloud_sample.hpp"
 
-#include <string>
-
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 
-std::vector<Eigen::Vector3d> sample_of(const PointCloud& cloud, const Eigen::Isometry3d& pose,
-                                       std::size_t most, const char* what,
-                                       const std::function<bool(const Eigen::Vector3d&)>& wanted) {
+void require_usable(const PointCloud& cloud, const Eigen::Isometry3d& pose, const std::string& what) {
   if (cloud.y.size() != cloud.size() || cloud.z.size() != cloud.size())
-    throw Error(std::string(what) + ": the cloud has " + std::to_string(cloud.x.size()) + " x, " +
+    throw Error(what + ": the cloud has " + std::to_string(cloud.x.size()) + " x, " +
                 std::to_string(cloud.y.size()) + " y and " + std::to_string(cloud.z.size()) +
                 " z, must be as many of each");
-  if (!pose.matrix().allFinite()) throw Error(std::string(what) + ": the pose of the sensor is not finite");
-  const auto point = [&](std::size_t i) -> Eigen::Vector3d {
-    return pose * Eigen::Vector3d(cloud.origin_x + static_cast<double>(cloud.x[i]),
-                                  cloud.origin_y + static_cast<double>(cloud.y[i]),
-                                  cloud.origin_z + static_cast<double>(cloud.z[i]));
-  };
+  if (!pose.matrix().allFinite()) throw Error(what + ": the pose of the sensor is not finite");
+}
+
+std::vector<Eigen::Vector3d> sample_of(const PointCloud& cloud, const Eigen::Isometry3d& pose,
+                                       std::size_t most, const std::string& what,
+                                       const std::function<bool(const Eigen::Vector3d&)>& wanted) {
+  require_usable(cloud, pose, what);
+  const auto point = [&](std::size_t i) -> Eigen::Vector3d { return pose * true_point(cloud, i); };
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d p = point(i);

@@ -8,6 +8,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/measure/point_locator.hpp"
 #include "aeolian_core/measure/sample_buckets.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -28,16 +29,6 @@ constexpr double gathering_share = 1.0 / 128;
 void require(bool allowed, const char* name, double value, const char* what) {
   if (!allowed)
     throw Error("fusion: " + std::string(name) + " is " + std::to_string(value) + ", must be " + what);
-}
-
-void check(const FusionParameters& p) {
-  const auto finite = [](double v) { return std::isfinite(v); };
-  p.sensor.require_valid();
-  require(p.change.rate_sigma >= 0 && finite(p.change.rate_sigma), "rate_sigma", p.change.rate_sigma,
-          "zero or positive");
-  require(p.change.rate_time > 0 && finite(p.change.rate_time), "rate_time", p.change.rate_time, "positive");
-  require(p.gate_sigma > 0 && finite(p.gate_sigma), "gate_sigma", p.gate_sigma, "positive");
-  require(p.gate_patience >= 0 && p.gate_patience < 255, "gate_patience", p.gate_patience, "from 0 to 254");
 }
 
 /// What a reading at the least range says of a height, without the ray's slant [m^2].
@@ -105,6 +96,16 @@ class KnownCells {
 
 }  // namespace
 
+void FusionParameters::require_valid() const {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  sensor.require_valid();
+  require(change.rate_sigma >= 0 && finite(change.rate_sigma), "rate_sigma", change.rate_sigma,
+          "zero or positive");
+  require(change.rate_time > 0 && finite(change.rate_time), "rate_time", change.rate_time, "positive");
+  require(gate_sigma > 0 && finite(gate_sigma), "gate_sigma", gate_sigma, "positive");
+  require(gate_patience >= 0 && gate_patience < 255, "gate_patience", gate_patience, "from 0 to 254");
+}
+
 /// What each thread keeps for itself.
 struct HeightFusion::Workers {
   struct Worker {
@@ -148,7 +149,7 @@ struct HeightFusion::Workers {
 
 HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters& parameters)
     : map_(geometry), parameters_(parameters) {
-  check(parameters);
+  parameters.require_valid();
   rules_.gate = {parameters.gate_sigma * parameters.gate_sigma, repose_relief * geometry.cell(),
                  fixed::reference_weight * reference_variance(parameters)};
   rules_.scale = PointScale(rules_.gate.weight_scale);
@@ -179,12 +180,8 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
 
 FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d& pose, double stamp,
                                const SensorNoise& sensor) {
-  if (cloud.y.size() != cloud.size() || cloud.z.size() != cloud.size())
-    throw Error("fusion: the cloud has " + std::to_string(cloud.x.size()) + " x, " +
-                std::to_string(cloud.y.size()) + " y and " + std::to_string(cloud.z.size()) +
-                " z, must be as many of each");
+  require_usable(cloud, pose, "fusion");
   require(std::isfinite(stamp), "stamp", stamp, "finite");
-  if (!pose.matrix().allFinite()) throw Error("fusion: the pose of the sensor is not finite");
   sensor.require_valid();
   set_clock(stamp);
 

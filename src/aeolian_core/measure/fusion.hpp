@@ -31,6 +31,9 @@ struct FusionParameters {
   double gate_sigma = 4;
   /// ... unless so many scans in a row disagree in the same way: with the next the cell begins anew.
   int gate_patience = 2;
+
+  /// Throws Error naming a parameter that is not positive where it must be.
+  void require_valid() const;
 };
 
 /// What one cloud did to the map.
@@ -65,7 +68,7 @@ struct FusionResult {
 ///     const HeightMap& map = fusion.map();
 class HeightFusion {
  public:
-  /// Throws Error naming a parameter that is not positive where it must be.
+  /// Throws Error unless the parameters are valid.
   HeightFusion(const GridGeometry& geometry, const FusionParameters& parameters);
   /// Continues a known map (elevation, optional variance, rate and rate_variance); `stamp` [s] is the time it
   /// holds for. A known cell without variance is taken to be as good as one point of the sensor; a height

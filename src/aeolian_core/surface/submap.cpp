@@ -36,18 +36,18 @@ GridGeometry part_of(const GridGeometry& whole, const CellRange& range) {
           whole.cell(), range.x1 - range.x0, range.y1 - range.y0};
 }
 
+HeightMap::Layer part_of(const GridGeometry& whole, const HeightMap::Layer& values, const CellRange& range) {
+  const GridGeometry part = part_of(whole, range);
+  HeightMap::Layer result(part.size());
+  for_each_row(part, range, whole, [&](std::ptrdiff_t in_part, std::ptrdiff_t in_whole) {
+    std::copy_n(values.begin() + in_whole, part.nx(), result.begin() + in_part);
+  });
+  return result;
+}
+
 HeightMap submap(const HeightMap& map, const CellRange& range) {
   HeightMap part(part_of(map.geometry(), range));
-  const int width = part.geometry().nx();
-  for (const std::string& name : map.names()) {
-    const HeightMap::Layer& from = map.layer(name);
-    HeightMap::Layer to(part.geometry().size());
-    for_each_row(part.geometry(), range, map.geometry(),
-                 [&](std::ptrdiff_t in_part, std::ptrdiff_t in_whole) {
-                   std::copy_n(from.begin() + in_whole, width, to.begin() + in_part);
-                 });
-    part.add(name, std::move(to));
-  }
+  for (const std::string& name : map.names()) part.add(name, part_of(map.geometry(), map.layer(name), range));
   return part;
 }
 

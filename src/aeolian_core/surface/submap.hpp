@@ -10,6 +10,9 @@ namespace aeolian {
 /// The grid of a range of cells. Throws Error for a range that is empty or reaches beyond the grid.
 GridGeometry part_of(const GridGeometry& whole, const CellRange& range);
 
+/// A range of cells of a layer on a grid. Throws Error for a range that is empty or reaches beyond the grid.
+HeightMap::Layer part_of(const GridGeometry& whole, const HeightMap::Layer& values, const CellRange& range);
+
 /// All layers of a range of cells, as a map. Throws Error for a range that is empty or reaches beyond the
 /// map.
 HeightMap submap(const HeightMap& map, const CellRange& range);

@@ -113,7 +113,7 @@ CloudInput::CloudInput(ros::NodeHandle& node, const SensorSettings& sensor, cons
 }
 
 void CloudInput::tell(const std::string& thing, bool well, const std::string& line) {
-  tell_(sensor_.name.empty() ? thing : sensor_.name + " " + thing, well, line);
+  tell_(sensor_.thing(thing), well, line);
 }
 
 void CloudInput::watch() {

@@ -26,6 +26,9 @@ struct SensorSettings {
   SensorNoise noise;
   ros::Duration latency;                               ///< how long after its measurement a cloud is stamped
   std::optional<RegistrationParameters> registration;  ///< of its clouds onto the map; nothing: none
+
+  /// A thing of this sensor's ("clouds") as diagnostics call it.
+  std::string thing(const std::string& what) const { return name.empty() ? what : name + " " + what; }
 };
 
 /// The parameters of a sensor, with what `shared` says as fallback; all but `topic`.

@@ -8,16 +8,6 @@
 namespace aeolian {
 namespace {
 
-HeightMap::Layer cut(const GridGeometry& geometry, const HeightMap::Layer& values, const CellRange& range) {
-  HeightMap::Layer part;
-  part.reserve(part_of(geometry, range).size());
-  for (int y = range.y0; y < range.y1; ++y) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(geometry.index(range.x0, y));
-    part.insert(part.end(), row, row + (range.x1 - range.x0));
-  }
-  return part;
-}
-
 std::vector<Rgb> plain_colours(const HeightMap::Layer& values, const SurfaceLook& look) {
   const double width = look.range.high > look.range.low ? look.range.high - look.range.low : 1;
   std::vector<Rgb> colours;
@@ -60,8 +50,8 @@ std::vector<CellRange> DrawnCells::update(const DrawnLayers& layers, const Surfa
 void DrawnCells::colour(const DrawnLayers& layers, const CellRange& range) {
   const CellRange seen = look_.shaded ? grown(range, geometry_) : range;
   const GridGeometry part = part_of(geometry_, seen);
-  const HeightMap::Layer values = cut(geometry_, layers.values, seen);
-  const HeightMap::Layer heights = cut(geometry_, layers.heights, seen);
+  const HeightMap::Layer values = part_of(geometry_, layers.values, seen);
+  const HeightMap::Layer heights = part_of(geometry_, layers.heights, seen);
   const std::vector<Rgb> colours =
       look_.shaded ? shaded_colours(part, values, look_.palette, look_.range, &heights, look_.exaggeration)
                    : plain_colours(values, look_);

@@ -105,7 +105,7 @@ class HeightMapper : public Node {
 
   void fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp,
             const SensorSettings& sensor) {
-    const std::string clouds = sensor.name.empty() ? "clouds" : sensor.name + " clouds";
+    const std::string clouds = sensor.thing("clouds");
     if (!services_->updates_enabled()) {
       good(clouds, "not used: disable_updates was called");
       return;
@@ -152,7 +152,7 @@ class HeightMapper : public Node {
                             const SensorSettings& sensor) {
     if (!sensor.registration || !live_->begun()) return pose;
     if (count_known(live_->map().layer(layer::elevation)) == 0) return pose;
-    const std::string thing = sensor.name.empty() ? "registration" : sensor.name + " registration";
+    const std::string thing = sensor.thing("registration");
     const Registration result = register_cloud(cloud, pose, live_->map(), *sensor.registration);
     if (result.accepted)
       good(thing,

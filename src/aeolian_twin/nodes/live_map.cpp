@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -31,7 +32,7 @@ HeightMap nearest_cells(const HeightMap& part, const GridGeometry& grid) {
 }  // namespace
 
 LiveMap::LiveMap(const Settings& settings) : settings_(settings) {
-  const HeightFusion checks_the_parameters(GridGeometry(0, 0, 1, 1, 1), settings.fusion);
+  settings.fusion.require_valid();
   if (settings.geometry) begin(*settings.geometry);
 }
 
@@ -41,6 +42,13 @@ const HeightFusion& LiveMap::fusion() const {
 }
 
 const HeightMap& LiveMap::map() const { return fusion().map(); }
+
+std_msgs::Header LiveMap::header() const {
+  std_msgs::Header header;
+  header.frame_id = settings_.frame;
+  header.stamp = stamp_;
+  return header;
+}
 
 StoredMap LiveMap::stored() const { return {fusion().map(), settings_.frame, stamp_}; }
 
@@ -58,9 +66,7 @@ GridGeometry LiveMap::covering(const PointCloud& cloud, const Eigen::Isometry3d&
                                const SensorNoise& sensor) const {
   Eigen::AlignedBox2d box;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d point(cloud.origin_x + static_cast<double>(cloud.x[i]),
-                                cloud.origin_y + static_cast<double>(cloud.y[i]),
-                                cloud.origin_z + static_cast<double>(cloud.z[i]));
+    const Eigen::Vector3d point = true_point(cloud, i);
     const double range = point.norm();
     if (range >= sensor.min_range && range <= sensor.max_range) box.extend((pose * point).head<2>());
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <ros/time.h>
+#include <std_msgs/Header.h>
 
 #include "aeolian_core/measure/fusion.hpp"
 #include "aeolian_twin/nodes/map_file.hpp"
@@ -32,6 +33,8 @@ class LiveMap {
   const std::string& frame() const { return settings_.frame; }
   /// Of the newest cloud or the file; zero: none yet.
   ros::Time stamp() const { return stamp_; }
+  /// Of messages about the map as it is.
+  std_msgs::Header header() const;
 
   /// Throws Error for a stamp of zero, a first cloud without a usable point, and as HeightFusion::add does.
   FusionResult fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp,

@@ -25,14 +25,7 @@ MapPublisher::MapPublisher(ros::NodeHandle& node, const LiveMap& live, bool incr
     updates_publisher_ = node.advertise<grid_map_msgs::GridMap>("height_map_updates", 1000, greet);
 }
 
-std_msgs::Header MapPublisher::header() const {
-  std_msgs::Header header;
-  header.frame_id = live_.frame();
-  header.stamp = live_.stamp();
-  return header;
-}
-
-grid_map_msgs::GridMap MapPublisher::whole() const { return to_message(live_.map(), header()); }
+grid_map_msgs::GridMap MapPublisher::whole() const { return to_message(live_.map(), live_.header()); }
 
 void MapPublisher::note(const TileMask& changed) {
   latched_ = false;
@@ -75,7 +68,8 @@ void MapPublisher::publish_changes() {
   changed_.clear();
   std::vector<CellRange> parts = rectangles(news);
   if (parts.empty()) parts.push_back({0, 1, 0, 1});  // a cell, to say that the map holds at this time, too
-  for (const CellRange& part : parts) updates_publisher_.publish(to_message(submap(map, part), header()));
+  for (const CellRange& part : parts)
+    updates_publisher_.publish(to_message(submap(map, part), live_.header()));
 }
 
 }  // namespace aeolian

@@ -32,7 +32,6 @@ class MapPublisher {
   void publish();
 
  private:
-  std_msgs::Header header() const;
   grid_map_msgs::GridMap whole() const;
   void send_whole(const ros::SingleSubscriberPublisher& to) const;
   void publish_changes();

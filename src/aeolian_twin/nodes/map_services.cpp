@@ -107,10 +107,7 @@ bool MapServices::get_submap(GetGridMap::Request& request, GetGridMap::Response&
     HeightMap asked(part.geometry());
     for (const std::string& name : request.layers.empty() ? part.names() : request.layers)
       asked.add(name, part.layer(name));
-    std_msgs::Header header;
-    header.frame_id = host_.live.frame();
-    header.stamp = host_.live.stamp();
-    response.map = to_message(asked, header);
+    response.map = to_message(asked, host_.live.header());
     return fmt::format("{} x {} cells", asked.geometry().nx(), asked.geometry().ny());
   });
 }

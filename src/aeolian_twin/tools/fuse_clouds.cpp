@@ -9,11 +9,13 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <unistd.h>
 
+#include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/measure/fusion.hpp"
 #include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
+#include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/sensor_file.hpp"
 
 namespace aeolian {
@@ -73,13 +75,12 @@ struct Box {
 
   void extend(const PointCloud& cloud) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const double x = cloud.origin_x + static_cast<double>(cloud.x[i]);
-      const double y = cloud.origin_y + static_cast<double>(cloud.y[i]);
-      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(cloud.z[i])) continue;
-      min_x = std::min(min_x, x);
-      min_y = std::min(min_y, y);
-      max_x = std::max(max_x, x);
-      max_y = std::max(max_y, y);
+      const Eigen::Vector3d point = true_point(cloud, i);
+      if (!point.allFinite()) continue;
+      min_x = std::min(min_x, point.x());
+      min_y = std::min(min_y, point.y());
+      max_x = std::max(max_x, point.x());
+      max_y = std::max(max_y, point.y());
     }
   }
 };
@@ -142,7 +143,7 @@ Eigen::Isometry3d registered(const std::string& name, const PointCloud& cloud, c
     fmt::print(
         "{}: moved by up to {:.3g} m, turned by {:.3g} deg ({} of 6 directions held by the surface), median "
         "distance from the map {:.3g} m, before {:.3g} m\n",
-        name, result.shift, result.angle * 180 / M_PI, result.held, result.median_residual,
+        name, result.shift, radians_to_degrees(result.angle), result.held, result.median_residual,
         result.given_residual);
   else
     fmt::print(stderr, "fuse_clouds: warning: {}: fused as it is: {}\n", name, result.reason);
