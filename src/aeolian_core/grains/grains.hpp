@@ -6,4 +6,4 @@
 /// II-III and Kok & Renno (2009), as collected in the splash specification.
 
 #include "aeolian_core/grains/grain.hpp"
-#include "aeolian_core/grains/splash.hpp"
+#include "aeolian_core/grains/mean_splash.hpp"
