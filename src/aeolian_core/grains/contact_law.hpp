@@ -5,15 +5,15 @@ namespace aeolian {
 /// The forces between two grains that touch, or between a grain and a wall (of infinite mass).
 struct ContactLaw {
   enum class Kind {
-    spring,         ///< damped normal spring, friction-limited damped shear spring (Werner 1987, eqs. 2.1-2.3)
+    spring,  ///< damped normal spring, friction-limited damped shear spring (Werner 1987, eqs. 2.1-2.3)
     hertz_mindlin,  ///< elastic spheres with viscous damping of a stated restitution (Tsuji et al. 1992)
   };
   Kind kind = Kind::spring;
 
-  double stiffness = 6e6;     ///< k_n of a spring [N/m]
+  double stiffness = 6e6;        ///< k_n of a spring [N/m]
   double shear_stiffness = 6e6;  ///< k_s of a spring [N/m]
-  double damping = 4515;      ///< gamma_n of a spring, times the effective mass [1/s]
-  double shear_damping = 4515;  ///< gamma_s of a spring, times the effective mass [1/s]
+  double damping = 4515;         ///< gamma_n of a spring, times the effective mass [1/s]
+  double shear_damping = 4515;   ///< gamma_s of a spring, times the effective mass [1/s]
 
   double youngs_modulus = 5e9;  ///< of Hertz and Mindlin [Pa]
   double poisson_ratio = 0.25;  ///< of Hertz and Mindlin
@@ -22,7 +22,8 @@ struct ContactLaw {
   double friction = 0.5;  ///< Coulomb's, mu
 
   /// A spring law with equal normal and shear constants whose damping gives `restitution` to grains of this
-  /// effective mass [kg] (Werner 1987, eq. 2.2 inverted: the normal force may attract near the end of a contact).
+  /// effective mass [kg] (Werner 1987, eq. 2.2 inverted: the normal force may attract near the end of a
+  /// contact).
   static ContactLaw spring(double stiffness, double restitution, double effective_mass, double friction);
 
   /// Throws Error naming the constant, its value and what is allowed.

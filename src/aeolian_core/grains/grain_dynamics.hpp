@@ -48,14 +48,14 @@ struct SleepRule {
 template <int Dim>
 struct GrainWorld {
   ContactLaw law;
-  double density = 2000;   ///< [kg/m^3]
-  double thickness = 0.01;  ///< of discs [m]; spheres have none
+  double density = 2000;                                          ///< [kg/m^3]
+  double thickness = 0.01;                                        ///< of discs [m]; spheres have none
   Vector<Dim> acceleration = -9.81 * Vector<Dim>::Unit(Dim - 1);  ///< of gravity [m/s^2]
   std::vector<Wall<Dim>> walls;
   /// After what length a side begins anew [m], zero: it does not. Positions lie from zero to the length.
   Vector<Dim> period = Vector<Dim>::Zero();
   double steps_per_contact = 36;  ///< of the shortest contact
-  double drag = 0;  ///< slows all motion, for settling beds [1/s]
+  double drag = 0;                ///< slows all motion, for settling beds [1/s]
   SleepRule sleep;
 };
 
@@ -63,8 +63,8 @@ struct GrainWorld {
 template <int Dim>
 struct GrainContact {
   int first, second;
-  Vector<Dim> normal;  ///< of unit length, from second to first
-  double overlap;      ///< [m]
+  Vector<Dim> normal;                ///< of unit length, from second to first
+  double overlap;                    ///< [m]
   double normal_force, shear_force;  ///< on first; the normal one pushes, the shear one's size [N]
 };
 
@@ -94,7 +94,8 @@ class GrainDynamics {
   GrainDynamics& operator=(GrainDynamics&&) noexcept;
 
   const GrainWorld<Dim>& world() const;
-  /// Other rules from now on, for the same grains: another drag, sleep or law. Throws as the constructor does.
+  /// Other rules from now on, for the same grains: another drag, sleep or law. Throws as the constructor
+  /// does.
   void set_world(const GrainWorld<Dim>& world);
   /// Spreads the work of a step over so many threads; zero: as many as the machine has. One to begin with.
   void set_threads(int threads);
@@ -105,8 +106,8 @@ class GrainDynamics {
           const Spin<Dim>& spin = Spin<Dim>::Zero());
   void remove(int grain);
 
-  std::size_t size() const;                      ///< grains that are there
-  const std::vector<int>& numbers() const;       ///< of those that are there, ascending
+  std::size_t size() const;                 ///< grains that are there
+  const std::vector<int>& numbers() const;  ///< of those that are there, ascending
   bool holds(int grain) const;
   Vector<Dim> position(int grain) const;  ///< [m]
   Vector<Dim> velocity(int grain) const;  ///< at the same instant as the position [m/s]

@@ -11,8 +11,8 @@ namespace aeolian {
 
 /// One grain that hits the bed.
 ///
-/// Velocities of impacts and splashes are in the frame of the grain's flight: x horizontal in the direction in
-/// which it came, y across to the left of it, z up. `slope` tells the bed under it.
+/// Velocities of impacts and splashes are in the frame of the grain's flight: x horizontal in the direction
+/// in which it came, y across to the left of it, z up. `slope` tells the bed under it.
 struct Impact {
   double speed;           ///< [m/s]
   double angle;           ///< of its path below the horizontal, 0 to pi / 2 [rad]
@@ -61,7 +61,8 @@ class Ejection {
   /// Mean number of grains for one impact.
   virtual double mean_number(const Impact& impact) const = 0;
   /// Appends the grains of one impact.
-  virtual void sample(const Impact& impact, RandomStream& random, std::vector<LeavingGrain>& ejecta) const = 0;
+  virtual void sample(const Impact& impact, RandomStream& random,
+                      std::vector<LeavingGrain>& ejecta) const = 0;
 };
 
 /// The bed's answer to impacts, one at a time: individual velocities; who saltates and who reptates is for
