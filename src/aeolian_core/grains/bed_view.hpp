@@ -33,6 +33,14 @@ class BedView {
             forward_ * along * sine_ + away * cosine_};
   }
 
+  /// The other way about: along the bed, across and away from it, of a velocity in the frame of the flight.
+  Eigen::Vector3d on_bed(const Eigen::Vector3d& velocity) const {
+    return {forward_ * (velocity.x() * cosine_ + velocity.z() * sine_), forward_ * velocity.y(),
+            velocity.z() * cosine_ - velocity.x() * sine_};
+  }
+  /// A distance along the flight as one along the grain's way on the bed, and back.
+  double along(double distance) const { return forward_ * distance; }
+
  private:
   double angle_;
   double forward_ = 1;

@@ -50,8 +50,8 @@ void CoarseSandEjection::sample(const Impact& impact, RandomStream& random,
   int count = node.number.draw(random);
   if (factor != 1) count = draw_rounded(factor * count, random);
   for (int i = 0; i < count; ++i) {
-    const double away = unit_ * node.ejecta_up.draw(random);
-    ejecta.push_back({bed.velocity(away * std::tan(node.direction.draw(random)), away), 1, 0, Origin::other});
+    const auto [away, direction] = node.draw_ejectum(random);
+    ejecta.push_back({bed.velocity(unit_ * away * std::tan(direction), unit_ * away), 1, 0, Origin::other});
   }
 }
 

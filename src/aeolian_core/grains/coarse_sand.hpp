@@ -46,7 +46,13 @@ class CoarseSandSettings {
     CountDistribution number;
     LogNormal ejecta_up;        ///< over sqrt(g d)
     TruncatedNormal direction;  ///< [rad]
+    double correlation;         ///< of the logarithm of the upward speed with the direction
     double mean_number;
+
+    struct Ejectum {
+      double away, direction;  ///< over sqrt(g d), [rad]
+    };
+    Ejectum draw_ejectum(RandomStream& random) const;
   };
 
   static const CoarseSandSettings& instance();
@@ -85,9 +91,10 @@ class CoarseSandRebound : public Rebound {
   double unit_;
 };
 
-/// Ejecta of the experiment: number with mean and half-width of each setting, upward speeds log-normal with
-/// theirs and hardly dependent on the impact's, normal angles; all in the plane of flight, where they were
-/// measured. Speeds scale with sqrt(g d).
+/// Ejecta of the experiment: number with mean and half-width of each setting; upward speeds log-normal with
+/// theirs and hardly dependent on the impact's; normal angles, correlated with the speeds so that the mean
+/// reptation of a grain is that of the setting (fast ejecta leave far forward). All in the plane of flight,
+/// where they were measured. Speeds scale with sqrt(g d).
 class CoarseSandEjection : public Ejection {
  public:
   explicit CoarseSandEjection(const Grain& grain);

@@ -42,17 +42,51 @@ CoarseSandRow at_fifteen(double speed) {
   row.number = between(rows[i].number, rows[i + 1].number, share);
   row.ejecta_up = between(rows[i].ejecta_up, rows[i + 1].ejecta_up, share);
   row.direction = between(rows[i].direction, rows[i + 1].direction, share);
+  row.reptation += share * (rows[i + 1].reptation - rows[i].reptation);
   return row;
+}
+
+/// Mean of upward speed squared times the tangent of the direction, for this correlation of both: what the
+/// reptation of a grain is proportional to. Over normal numbers in steps of 0.2.
+double mean_hop(const LogNormal& up, const TruncatedNormal& direction, double correlation) {
+  constexpr double reach = 4, step = 0.2;
+  const double rest = std::sqrt(1 - correlation * correlation);
+  double sum = 0, weights = 0;
+  for (double z = -reach; z <= reach; z += step) {
+    const double square = up.at(z) * up.at(z);
+    for (double y = -reach; y <= reach; y += step) {
+      const double angle = direction.middle() + direction.width() * (correlation * z + rest * y);
+      if (std::abs(angle) > widest_direction) continue;
+      const double weight = std::exp(-(z * z + y * y) / 2);
+      weights += weight;
+      sum += weight * square * std::tan(angle);
+    }
+  }
+  return sum / weights;
+}
+
+/// The correlation that gives ejecta this mean reptation [cm]; the hop grows with it.
+double correlation_for(const LogNormal& up, const TruncatedNormal& direction, double reptation) {
+  const double wanted = reptation / (2 * coarse_sand_diameter * 100);
+  double low = -0.95, high = 0.95;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = (low + high) / 2;
+    (mean_hop(up, direction, middle) < wanted ? low : high) = middle;
+  }
+  return (low + high) / 2;
 }
 
 CoarseSandSettings::Node node_of(const CoarseSandRow& row, double angle) {
   const double highest = 0.98 / std::sin(angle);
+  const LogNormal up(row.ejecta_up.mean / unit(), row.ejecta_up.half_width / unit());
+  const TruncatedNormal direction(row.direction.mean * degree, row.direction.half_width * degree,
+                                  -widest_direction, widest_direction);
   return {TruncatedNormal(row.along.mean, row.along.half_width, -0.98, 0.98),
           TruncatedNormal(row.upward.mean, row.upward.half_width, 0, highest),
           CountDistribution(row.number.mean, row.number.half_width),
-          LogNormal(row.ejecta_up.mean / unit(), row.ejecta_up.half_width / unit()),
-          TruncatedNormal(row.direction.mean * degree, row.direction.half_width * degree, -widest_direction,
-                          widest_direction),
+          up,
+          direction,
+          correlation_for(up, direction, row.reptation),
           row.number.mean};
 }
 
@@ -95,8 +129,19 @@ CoarseSandSettings::CoarseSandSettings()
       row.upward = changed(row.upward, here.upward, there.upward);
       row.number = changed(row.number, here.number, there.number);
       row.ejecta_up = changed(row.ejecta_up, here.ejecta_up, there.ejecta_up);
+      row.direction = changed(row.direction, here.direction, there.direction);
+      row.reptation *= there.reptation / here.reptation;
       nodes_[other.node * speeds + i] = node_of(row, there.angle * degree);
     }
+  }
+}
+
+CoarseSandSettings::Node::Ejectum CoarseSandSettings::Node::draw_ejectum(RandomStream& random) const {
+  const double rest = std::sqrt(1 - correlation * correlation);
+  for (;;) {
+    const double z = random.normal();
+    const double angle = direction.middle() + direction.width() * (correlation * z + rest * random.normal());
+    if (std::abs(angle) <= widest_direction) return {ejecta_up.at(z), angle};
   }
 }
 

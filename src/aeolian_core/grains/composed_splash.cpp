@@ -26,7 +26,6 @@ class Allowance {
     energy_ -= energy_of(grain);
     momentum_ -= momentum_of(grain);
   }
-  bool overdrawn() const { return energy_ < 0 || momentum_ < 0; }
 
  private:
   static double mass(const LeavingGrain& grain) {
@@ -44,11 +43,20 @@ class Allowance {
 
 }  // namespace
 
+// By Cauchy and Schwarz the momentum of grains of mass M and energy E is at most sqrt(2 M E): where that is
+// less than the impact's, its direction does not matter.
 bool within_impact(const SplashEvent& event, const Impact& impact) {
-  Allowance left(impact);
-  if (event.rebound) left.take(*event.rebound);
-  for (const LeavingGrain& grain : event.ejecta) left.take(grain);
-  return !left.overdrawn();
+  double all_mass = 0;
+  const auto add = [&](const LeavingGrain& grain) {
+    all_mass += grain.size_ratio * grain.size_ratio * grain.size_ratio;
+  };
+  if (event.rebound) add(*event.rebound);
+  for (const LeavingGrain& grain : event.ejecta) add(grain);
+  const double energy = kinetic_energy(event);
+  const double brought = kinetic_energy(impact) * (1 + rounding);
+  if (energy > brought) return false;
+  if (all_mass * energy <= brought * impact.size_ratio * impact.size_ratio * impact.size_ratio) return true;
+  return momentum_along(impact, event) <= momentum(impact) * (1 + rounding);
 }
 
 void drop_beyond_impact(SplashEvent& event, const Impact& impact) {

@@ -67,7 +67,7 @@ LogNormal::LogNormal(double mean, double deviation) {
   middle_ = std::log(mean) - square / 2;
 }
 
-double LogNormal::draw(RandomStream& random) const { return std::exp(middle_ + width_ * random.normal()); }
+double LogNormal::at(double z) const { return std::exp(middle_ + width_ * z); }
 
 CountDistribution::CountDistribution(double mean, double deviation) {
   const double variance = deviation * deviation;

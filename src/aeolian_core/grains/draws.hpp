@@ -20,6 +20,9 @@ class TruncatedNormal {
   TruncatedNormal(double mean, double deviation, double low, double high);
   double draw(RandomStream& random) const;
 
+  double middle() const { return middle_; }  ///< before the cut
+  double width() const { return width_; }    ///< before the cut
+
  private:
   double middle_ = 0, width_ = 0, low_ = 0, high_ = 0;
 };
@@ -29,7 +32,8 @@ class LogNormal {
  public:
   LogNormal() = default;
   LogNormal(double mean, double deviation);
-  double draw(RandomStream& random) const;
+  /// The value that a standard normal number stands for.
+  double at(double z) const;
 
  private:
   double middle_ = 0, width_ = 0;
