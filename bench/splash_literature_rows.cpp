@@ -15,7 +15,7 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
-constexpr int draws = 40000;
+constexpr int draws = 160000;
 
 void distributions(AccuracyTable& table) {
   table.section(

@@ -12,4 +12,7 @@ void literature_rows(AccuracyTable& table);  ///< splash functions of the litera
 void table_rows(AccuracyTable& table);       ///< tables of events against what they were made from
 /// @}
 
+/// Prints a script for gnuplot that draws how the splash functions differ, as a PNG on its standard output.
+void print_splash_figure();
+
 }  // namespace aeolian

@@ -1,12 +1,9 @@
-// How the splash functions differ, as a script for gnuplot that draws a PNG:
-//
-//     ./twin bench splash_figure | gnuplot > docs/accuracy/splash_functions.png
-
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "splash_rows.hpp"
 #include "splash_sample.hpp"
 #include <fmt/format.h>
 
@@ -23,8 +20,8 @@ struct Curve {
 };
 constexpr std::array<Curve, 8> curves{{
     {"werner", "Werner: rebound model, coarse-sand ejecta", "lc rgb '#d62728' lw 3"},
-    {"coarse_sand", "Werner: coarse-sand experiment", "lc rgb '#ff7f0e' lw 3"},
-    {"kok_renno", "Kok & Renno 2009", "lc rgb '#1f77b4' lw 3"},
+    {"coarse_sand", "Werner: coarse-sand experiment", "lc rgb '#ff7f0e' lw 3 dt (12,8)"},
+    {"kok_renno", "Kok \\& Renno 2009", "lc rgb '#1f77b4' lw 3"},
     {"anderson_haff", "Anderson \\& Haff 1991", "lc rgb '#17becf' lw 3"},
     {"beladjine", "Beladjine 2007 (amplitude of sand)", "lc rgb '#2ca02c' lw 3"},
     {"laemmel", "Lämmel 2017", "lc rgb '#9467bd' lw 3"},
@@ -67,10 +64,8 @@ void print_panel(char block, int column, const std::string& title, const std::st
 }
 
 }  // namespace
-}  // namespace aeolian
 
-int main() {
-  using namespace aeolian;
+void print_splash_figure() {
   std::vector<double> speeds, angles;
   for (double v = 10; v <= 160; v += 5) speeds.push_back(v);
   for (double a = 4; a <= 88; a += 2) angles.push_back(a);
@@ -80,9 +75,10 @@ int main() {
     print_data(fmt::format("a{}", i), *splash, angles, false);
   }
   fmt::print(
-      "set terminal pngcairo size 1500,1060 enhanced font 'DejaVu Sans,12'\n"
-      "set multiplot layout 3,3 title 'Splash functions on fine sand of 0.25 mm' font ',16'\n"
-      "set grid lc rgb '#dddddd'; set border 3; set tics nomirror\n");
+      "set terminal pngcairo size 1500,900 enhanced font 'DejaVu Sans,12'\n"
+      "set multiplot layout 2,3 margins 0.05,0.98,0.25,0.9 spacing 0.07,0.14 "
+      "title 'Splash functions on fine sand of 0.25 mm' font ',16'\n"
+      "set grid xtics ytics lt 1 lw 1 lc rgb '#dddddd'; set border 3; set tics nomirror\n");
   const std::string speed = "impact speed / √(g d)", angle = "angle to the bed, degrees";
   print_panel('s', 2, "At 12 degrees", speed, "speed after / before (rebounds)",
               "set xrange [0:160]; set yrange [0:1]");
@@ -91,11 +87,15 @@ int main() {
   print_panel('a', 2, "At 60 √(g d)", angle, "speed after / before (rebounds)",
               "set xrange [0:90]; set yrange [0:1]");
   print_panel('a', 3, "At 60 √(g d)", angle, "ε_{{iy}}: upward speed after / before", "set yrange [0:4]");
-  print_panel('a', 4, "At 60 √(g d)", angle, "ejecta of an impact", "set yrange [0:6]");
+  print_panel('a', 4, "At 60 √(g d)", angle, "ejecta of an impact", "set yrange [0:10]");
   fmt::print(
-      "set multiplot next; unset title; unset xlabel; unset ylabel; unset border; unset tics; unset grid\n"
-      "set key center center spacing 1.4; set xrange [0:1]; set yrange [0:1]\nplot ");
+      "set origin 0,0; set size 1,0.18; set margins 0,0,0,0\n"
+      "unset title; unset xlabel; unset ylabel; unset border; unset tics; unset grid\n"
+      "set key center center horizontal maxcols 3 samplen 5 spacing 1.6 width 2 Left reverse\n"
+      "set xrange [0:1]; set yrange [0:1]\nplot ");
   for (std::size_t i = 0; i < curves.size(); ++i)
     fmt::print("{}-1 with lines {} title '{}'", i == 0 ? "" : ", ", curves[i].style, curves[i].name);
   fmt::print("\nunset multiplot\n");
 }
+
+}  // namespace aeolian
