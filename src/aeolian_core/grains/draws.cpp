@@ -82,7 +82,10 @@ double draw_exponential(RandomStream& random) {
 int draw_poisson(double mean, RandomStream& random) {
   constexpr double largest = 30;  // of one inversion: the sum of two such numbers is such a number
   int count = 0;
-  for (; mean > largest; mean -= largest) count += draw_poisson(largest, random);
+  while (mean > largest) {
+    count += draw_poisson(largest, random);
+    mean -= largest;
+  }
   if (mean <= 0) return count;
   double probability = std::exp(-mean);
   double left = random.uniform() - probability;

@@ -54,7 +54,7 @@ SplashTable SplashTable::build(const std::vector<SplashCase>& cases, double diam
       node.events.push_back(stored);
     }
   }
-  return of(std::move(nodes), source, "splash table");
+  return of(nodes, source, "splash table");
 }
 
 }  // namespace aeolian

@@ -50,7 +50,8 @@ class Lines {
   std::vector<std::string_view> fields(std::size_t count) const {
     std::vector<std::string_view> all;
     std::string_view rest = line_;
-    for (std::size_t comma; (comma = rest.find(',')) != std::string_view::npos; rest.remove_prefix(comma + 1))
+    for (std::size_t comma = 0; (comma = rest.find(',')) != std::string_view::npos;
+         rest.remove_prefix(comma + 1))
       all.push_back(trimmed(rest.substr(0, comma)));
     all.push_back(trimmed(rest));
     if (all.size() != count)
@@ -226,7 +227,7 @@ SplashTable SplashTable::read(const std::string& path) {
                " events and " + std::to_string(ejecta) + " ejecta, must be " + std::to_string(head.nodes) +
                ", " + std::to_string(head.events) + " and " + std::to_string(head.ejecta) +
                " as the head says");
-  return of(std::move(nodes), head.source, path);
+  return of(nodes, head.source, path);
 }
 
 }  // namespace aeolian
