@@ -19,7 +19,7 @@ constexpr double cell = 0.002;
 Forcing wind(double direction) {
   Grain grain;
   grain.diameter = 0.0004;
-  return make_forcing(steady_saltation(0.45, grain), direction, grain, Splash{});
+  return make_forcing(steady_saltation(0.45, grain), direction, grain, MeanSplash{});
 }
 
 /// Bytes per second of memcpy, read and written, over buffers that no cache holds.

@@ -36,7 +36,7 @@ void check(const Forcing& forcing, double duration) {
 }
 
 Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain,
-                     const Splash& splash) {
+                     const MeanSplash& splash) {
   Forcing forcing;
   forcing.direction = direction;
   forcing.impact_angle = state.impact_angle;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "aeolian_core/grains/grain.hpp"
-#include "aeolian_core/grains/splash.hpp"
+#include "aeolian_core/grains/mean_splash.hpp"
 #include "aeolian_core/saltation/saltation_state.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
@@ -27,7 +27,7 @@ struct Forcing {
 void check(const Forcing& forcing, double duration);
 
 /// The forcing of one saltation state.
-Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain, const Splash& splash);
+Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain, const MeanSplash& splash);
 
 /// The mean of several forcings (gusts) with the weight of each one's time: rates are averaged as they are,
 /// direction and impact angle by ejection rate, so that calm spells move nothing. Throws Error when empty or

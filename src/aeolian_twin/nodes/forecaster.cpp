@@ -205,7 +205,7 @@ class Forecaster : public Node {
   }
 
   Grain grain_;
-  Splash splash_;
+  MeanSplash splash_;
   std::vector<double> horizons_;
   ros::Duration period_;
   double wind_window_ = 0;
@@ -244,7 +244,7 @@ NodeDescription describe_forecaster() {
           {"grain_density", grain.density, "kg/m^3", "of the solid", Limits::positive()},
           {"porosity", grain.porosity, "", "of the bed at rest", Limits::between(0, 0.95)},
           {"angle_of_repose_deg", 33.0, "degrees", "of the bed", Limits::between(1, 60)},
-          {"reptation_diameters", Splash{}.reptation_diameters, "grain diameters",
+          {"reptation_diameters", MeanSplash{}.reptation_diameters, "grain diameters",
            "mean length of a reptation hop", Limits::positive()},
           {"hop_shortening", ripple.hop_shortening, "", "hops end early by this share of the bed's rise",
            Limits::not_negative()},

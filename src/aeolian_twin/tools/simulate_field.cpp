@@ -63,7 +63,7 @@ class Wind {
     return friction_velocity(speed, day_.anemometer.height, grain_roughness(day_.grain.diameter));
   }
   Forcing forcing(double speed, double direction) const {
-    return make_forcing(steady_saltation(friction(speed), day_.grain), direction, day_.grain, Splash{});
+    return make_forcing(steady_saltation(friction(speed), day_.grain), direction, day_.grain, MeanSplash{});
   }
   /// The samples in [from, to), at least the last one before `to`.
   std::vector<const VirtualAnemometer::Sample*> between(double from, double to) const {

@@ -12,7 +12,7 @@ namespace {
 
 Forcing forcing_of(double friction_velocity, double direction = 0) {
   const Grain grain;
-  return make_forcing(steady_saltation(friction_velocity, grain), direction, grain, Splash{});
+  return make_forcing(steady_saltation(friction_velocity, grain), direction, grain, MeanSplash{});
 }
 
 TEST(ForcingTest, erosion_rate_is_impacts_times_ejecta_times_volume) {

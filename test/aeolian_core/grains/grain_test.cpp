@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "aeolian_core/grains/splash.hpp"
+#include "aeolian_core/grains/mean_splash.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -67,13 +67,15 @@ TEST(GrainTest, refusals_name_the_property_and_what_is_allowed) {
 
 TEST(SplashTest, ejecta_are_proportional_to_speed) {
   const Grain grain;
-  const Splash splash;
+  const MeanSplash splash;
   // Kok & Renno (2009): 0.02 v / sqrt(g d), 0.56 at 1.39 m/s and 0.25 mm.
   EXPECT_NEAR(splash.ejecta_per_impact(grain, 1.39), 0.561, 0.001);
   EXPECT_DOUBLE_EQ(splash.ejecta_per_impact(grain, 2.78), 2 * splash.ejecta_per_impact(grain, 1.39));
 }
 
-TEST(SplashTest, reptation_is_25_diameters) { EXPECT_DOUBLE_EQ(Splash{}.reptation_length(Grain{}), 0.00625); }
+TEST(SplashTest, reptation_is_25_diameters) {
+  EXPECT_DOUBLE_EQ(MeanSplash{}.reptation_length(Grain{}), 0.00625);
+}
 
 }  // namespace
 }  // namespace aeolian
