@@ -180,9 +180,17 @@ void mergers(AccuracyTable& table) {
 void haff(AccuracyTable& table) {
   table.section(
       "Haff's bed (row 23)",
-      "Bins of 4 d, hops of 40 d, 4000 d of bed, impacts at 10°, repose 30°; eight beds. The thesis gives no "
-      "numbers; those told are the specification's. Slopes between bins come in steps of 3.6°. No steady "
-      "wavelength is expected.");
+      "Bins of 4 d, hops of 40 d, 4000 d of bed, impacts at 10°, repose 30°; eight beds. The "
+      "thesis gives no numbers; "
+      "those told are the specification's. Slopes between bins come in steps of 3.6°. No steady "
+      "wavelength is "
+      "expected. Which slope the limit of the stoss goes by is not told: here, that to the next "
+      "bin downwind, which "
+      "the loss of a grain would steepen. By the slope to the bin upwind the bed freezes at ripples of 44 d "
+      "with single steep "
+      "steps (29°); by the mean of both it ripples, but nine tenths of the rises lie below 27° "
+      "only. So the last judged "
+      "row holds for this reading, not for every one.");
   struct State {
     double wavelength[3], steep[3];
   };

@@ -73,9 +73,11 @@ void HaffBed::advance(double impacts_per_diameter) {
 int HaffBed::struck() {
   const double start = random_.uniform() * parameters_.bins;
   int bin = static_cast<int>(start);
-  for (double path = highest_ - drop_ * (bin + 1 - start); path > grains_[static_cast<std::size_t>(bin)];
-       path -= drop_)
+  double path = highest_ - drop_ * (bin + 1 - start);
+  while (path > grains_[static_cast<std::size_t>(bin)]) {
     bin = wrapped(bin + 1);
+    path -= drop_;
+  }
   return bin;
 }
 

@@ -15,6 +15,7 @@ auto run_members(int count, const Run& run) -> std::vector<decltype(run(0))> {
   const int threads =
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, std::max(1, count));
   std::vector<std::future<void>> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
   for (int first = 0; first < threads; ++first)
     workers.push_back(std::async(std::launch::async, [&, first] {
       for (int member = first; member < count; member += threads)

@@ -26,13 +26,22 @@ void check_pair(int first, int second, double pace, std::int64_t steps) {
   require(steps >= 0, std::to_string(steps) + " steps, must not be negative");
 }
 
+/// By length: a worm moves when 32 random bits lie below this.
+std::vector<std::uint64_t> move_thresholds(int links, double pace) {
+  std::vector<std::uint64_t> result(static_cast<std::size_t>(links) + 1);
+  for (int l = 1; l <= links; ++l)
+    result[static_cast<std::size_t>(l)] = static_cast<std::uint64_t>(std::llround(0x1p32 * pace / l));
+  return result;
+}
+
 /// Whether a pair has merged.
-bool play_pair(int first, int second, double pace, std::int64_t steps, RandomStream& random) {
+bool play_pair(std::size_t first, std::size_t second, const std::vector<std::uint64_t>& moves_below,
+               std::int64_t steps, RandomStream random) {
   for (std::int64_t n = 0; n < steps && first > 0 && second > 0; ++n) {
-    const int change = static_cast<int>(random.uniform() < pace / first) -
-                       static_cast<int>(random.uniform() < pace / second);
-    first += change;
-    second -= change;
+    const bool first_moves = random.bits() < moves_below[first];
+    const bool second_moves = random.bits() < moves_below[second];
+    first += static_cast<std::size_t>(first_moves) - static_cast<std::size_t>(second_moves);
+    second = moves_below.size() - 1 - first;
   }
   return first == 0 || second == 0;
 }
@@ -66,9 +75,11 @@ std::int64_t count_mergers(int first, int second, double pace, std::int64_t step
                            std::uint64_t seed) {
   check_pair(first, second, pace, steps);
   require(members > 0, std::to_string(members) + " members, must be at least 1");
+  const std::vector<std::uint64_t> moves_below = move_thresholds(first + second, pace);
   const std::vector<int> merged = run_members(members, [&](int member) {
-    RandomStream random(seed, static_cast<std::uint64_t>(member));
-    return static_cast<int>(play_pair(first, second, pace, steps, random));
+    return static_cast<int>(play_pair(static_cast<std::size_t>(first), static_cast<std::size_t>(second),
+                                      moves_below, steps,
+                                      RandomStream(seed, static_cast<std::uint64_t>(member))));
   });
   return std::accumulate(merged.begin(), merged.end(), std::int64_t{0});
 }

@@ -14,9 +14,9 @@
 
 namespace aeolian {
 
-/// Mean and spread of lengths over time, from eight rings.
+/// Mean and spread of lengths over time, from four rings.
 inline Table worm_growth(std::uint64_t seed) {
-  constexpr int rings = 8;
+  constexpr int rings = 4;
   std::vector<std::int64_t> times;
   for (double exponent = 0; exponent < 5.5; exponent += 0.1)
     times.push_back(std::llround(std::pow(10, exponent)));
@@ -38,7 +38,7 @@ inline Table worm_growth(std::uint64_t seed) {
 
 /// Mergers of two worms of five links, by the chain and by play, over the pace.
 inline Table worm_pairs(std::uint64_t seed) {
-  constexpr int members = 20000;
+  constexpr int members = 10000;
   std::vector<std::vector<double>> rows;
   for (int percent = 20; percent <= 100; percent += 10) {
     const double pace = percent / 100.0;
@@ -77,7 +77,7 @@ inline void draw_worms(const std::string& out, std::uint64_t seed) {
       << panel_place(0.66, 0.98, 0.88, 0.14) << title("Two worms of 5 links merge within 250 / pace steps")
       << "set xrange [0.15:1.05]\nset yrange [0:*]\nset xlabel 'pace'\nset ylabel 'probability'\n"
          "set key top right\nplot $pairs using 1:2 with lines lw 2 lc rgb second title 'Markov chain', "
-         "$pairs using 1:3:(2*$4) with yerrorbars pt 7 ps 0.6 lc rgb forecast title '20 000 pairs, 2 s.d.'\n"
+         "$pairs using 1:3:(2*$4) with yerrorbars pt 7 ps 0.6 lc rgb forecast title '10 000 pairs, 2 s.d.'\n"
          "unset multiplot\n";
   plot_svg(script.str(), 1100, 430, out + "/worms.svg");
 }

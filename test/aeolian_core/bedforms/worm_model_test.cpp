@@ -30,7 +30,7 @@ TEST(WormModelTest, the_chain_has_the_probabilities_of_one_step) {
 }
 
 TEST(WormModelTest, play_agrees_with_the_chain) {
-  constexpr int members = 20000;
+  constexpr int members = 10000;
   const double exact = merger_probability(5, 5, 0.5, 500);
   const double played = static_cast<double>(count_mergers(5, 5, 0.5, 500, members, 1)) / members;
   EXPECT_NEAR(played, exact, 2 * std::sqrt(exact * (1 - exact) / members));
