@@ -4,10 +4,17 @@
 ///
 /// Ripples after Werner (1987), ch. V-VI and later theory: a height-map model that is fast enough to forecast
 /// a live plot, and a bed of single grains on a lattice that is the truth to test against. Both stand behind
-/// `BedModel`.
+/// `BedModel`. Beside them stand Haff's bed of height bins and the theory of ripples that collide and merge.
 
 #include "aeolian_core/bedforms/avalanche.hpp"
 #include "aeolian_core/bedforms/bed_model.hpp"
 #include "aeolian_core/bedforms/exposure.hpp"
+#include "aeolian_core/bedforms/haff_bed.hpp"
 #include "aeolian_core/bedforms/lattice_bed.hpp"
+#include "aeolian_core/bedforms/merger_theory.hpp"
+#include "aeolian_core/bedforms/periodic_profile.hpp"
+#include "aeolian_core/bedforms/ripple_collision.hpp"
+#include "aeolian_core/bedforms/ripple_kinematics.hpp"
 #include "aeolian_core/bedforms/ripple_model.hpp"
+#include "aeolian_core/bedforms/triangular_ripple.hpp"
+#include "aeolian_core/bedforms/worm_model.hpp"

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "accuracy_table.hpp"
+
+namespace aeolian {
+
+/// The parts of docs/accuracy/ripples.md, each in its own file ripple_NAME_rows.cpp.
+/// @{
+void theory_rows(AccuracyTable& table);  ///< kinematics, worms, collisions, mergers, Haff's bed (rows 13-23)
+/// @}
+
+}  // namespace aeolian
