@@ -24,8 +24,11 @@ constexpr double greatest_delay = 10;
 /// Milliseconds that the cells can count, less a reserve.
 constexpr double longest_time = 4e9;
 constexpr std::size_t points_at_once = 16384;
+/// Of fewer points it costs more to wake another thread than it saves.
+constexpr std::size_t points_for_threads = 65536;
+bool for_one_thread(std::size_t points) { return points < points_for_threads; }
 /// A still tile gathers scans for this part of the time for which a bed goes on rising or sinking.
-constexpr double gathering_share = 1.0 / 128;
+constexpr double gathering_share = 1.0 / 64;
 
 void require(bool allowed, const char* name, double value, const char* what) {
   if (!allowed)
@@ -132,8 +135,9 @@ struct HeightFusion::Workers {
   }
 
   void sort_into_tiles(const PointCloud& cloud, const PointLocator& locator, std::size_t tiles) {
+    const std::size_t grain = for_one_thread(cloud.size()) ? cloud.size() + 1 : points_at_once;
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, cloud.size(), points_at_once),
+        tbb::blocked_range<std::size_t>(0, cloud.size(), grain),
         [&](const tbb::blocked_range<std::size_t>& range) {
           Worker& worker = of_threads.local();
           if (worker.buckets.empty()) worker.buckets.reset(tiles, cloud.size());
@@ -191,7 +195,7 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
   result.changed = TileMask(map_.geometry());
   workers_->reset();
   workers_->sort_into_tiles(cloud, locator(cloud, pose, map_.geometry(), parameters_, sensor), tiles_.size());
-  work_on_tiles(result);
+  work_on_tiles(cloud.size(), result);
   PointCounts counts;
   for (const Workers::Worker& worker : workers_->of_threads) {
     counts.add(worker.counts);
@@ -205,7 +209,7 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
   return result;
 }
 
-void HeightFusion::work_on_tiles(FusionResult& result) {
+void HeightFusion::work_on_tiles(std::size_t points, FusionResult& result) {
   const bool is_read = std::exchange(is_read_, false);
   std::vector<std::size_t> active;
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
@@ -214,8 +218,10 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
         active.push_back(tile);
         break;
       }
+  const std::size_t grain = for_one_thread(points) ? active.size() + 1 : 1;
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, active.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+      tbb::blocked_range<std::size_t>(0, active.size(), grain),
+      [&](const tbb::blocked_range<std::size_t>& range) {
         Workers::Worker& own = workers_->of_threads.local();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const std::size_t at = active[i];
@@ -225,6 +231,7 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           const auto for_each_block = [&](auto&& visit) {
             for (const Workers::Worker& worker : workers_->of_threads) worker.buckets.for_each(at, visit);
           };
+          if (i + 1 < range.end() && tiles_[active[i + 1]]) tiles_[active[i + 1]]->prefetch();
           tile.open(scan_, newest_, rules_);
           for_each_block([&](const Sample* samples, std::size_t count) { own.marks.add(samples, count); });
           tile.reach(own.marks, rules_, own.steps);

@@ -49,7 +49,7 @@ struct FusionResult {
 
 /// The live height map. Each cell tracks height and rate of change of the bed (HeightChange) and, as long as
 /// its tile of 32 x 32 cells is still, averages on without end; points are weighed by SensorNoise. One pass
-/// over the points, no separate step. A still tile takes quick scans together (those within 1/128 of
+/// over the points, no separate step. A still tile takes quick scans together (those within 1/64 of
 /// rate_time) and tells of them once, with the first.
 ///
 /// Clouds of one stamp are one scan: the map is the same, to the bit, however the scan is cut into clouds, in
@@ -103,7 +103,7 @@ class HeightFusion {
   struct Workers;
 
   void set_clock(double stamp);
-  void work_on_tiles(FusionResult& result);
+  void work_on_tiles(std::size_t points, FusionResult& result);
   TileLayers layers_of_tile(std::size_t tile, const TileMask& tiling) const;
 
   mutable HeightMap map_;

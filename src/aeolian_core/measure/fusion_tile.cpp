@@ -54,10 +54,10 @@ void for_each_cell(std::size_t y, CellSet::Row row, Visit&& visit) {
   for (; row != 0; row &= row - 1) visit(y * CellSet::side + static_cast<std::size_t>(__builtin_ctz(row)));
 }
 
-void prefetch(const FilterCell& cell) { __builtin_prefetch(&cell, 1); }
+void fetch(const FilterCell& cell) { __builtin_prefetch(&cell, 1); }
 
 /// A row of a tile, whose first cell is at `first`.
-void prefetch(const TileLayers& layers, std::size_t first) {
+void fetch(const TileLayers& layers, std::size_t first) {
   constexpr std::size_t cells_per_line = 64 / sizeof(float);
   for (float* const layer : {layers.elevation, layers.variance, layers.rate, layers.rate_variance})
     for (std::size_t i = 0; i < layers.width; i += cells_per_line) __builtin_prefetch(layer + first + i, 1);
@@ -79,6 +79,13 @@ CellSet::Row CellMarks::take_row(std::size_t y) {
     row |= static_cast<CellSet::Row>(bytes * gathering_bits >> 56) << x;
   }
   return row;
+}
+
+void FusionTile::prefetch() const {
+  constexpr std::size_t line = 64;
+  const auto* const begin = reinterpret_cast<const char*>(this);
+  const auto* const end = reinterpret_cast<const char*>(cells_.data());
+  for (const char* at = begin; at < end; at += line) __builtin_prefetch(at, 1);
 }
 
 void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules) {
@@ -106,7 +113,7 @@ void FusionTile::reach(CellMarks& marks, const FusionRules& rules, HeightSteps& 
   for (std::size_t y = 0; y < side; ++y) {
     const CellSet::Row marked = marks.take_row(y);
     unwritten_.row(y) |= marked;
-    for_each_cell(y, marked & open_.row(y), [&](std::size_t cell) { prefetch(cells_[cell]); });
+    for_each_cell(y, marked & open_.row(y), [&](std::size_t cell) { fetch(cells_[cell]); });
     for_each_cell(y, marked & ~open_.row(y),
                   [&](std::size_t cell) { cells[count++] = static_cast<std::uint16_t>(cell); });
     open_.row(y) |= marked;
@@ -118,13 +125,13 @@ void FusionTile::reach(CellMarks& marks, const FusionRules& rules, HeightSteps& 
 void FusionTile::move_on(const std::uint16_t* cells, std::size_t count, const FusionRules& rules,
                          HeightSteps& steps) {
   constexpr std::size_t ahead = 2 * CellBatch::size;
-  for (std::size_t i = 0; i < std::min(count, ahead); ++i) prefetch(cells_[cells[i]]);
+  for (std::size_t i = 0; i < std::min(count, ahead); ++i) fetch(cells_[cells[i]]);
   for (std::size_t first = 0; first < count; first += CellBatch::size) {
     CellBatch batch;
     CellSteps in;
     batch.count = std::min(CellBatch::size, count - first);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      if (first + i + ahead < count) prefetch(cells_[cells[first + i + ahead]]);
+      if (first + i + ahead < count) fetch(cells_[cells[first + i + ahead]]);
       FilterCell& cell = cells_[cells[first + i]];
       batch.cells[i] = &cell;
       in.steps[i] = &steps.after(time_ - cell.time);
@@ -267,7 +274,7 @@ void FusionTile::write(const FusionRules& rules, const TileLayers& layers) {
   };
   for (std::size_t y = 0; y < layers.rows; ++y) {
     if (y + rows_ahead < layers.rows && unwritten_.row(y + rows_ahead) != 0)
-      prefetch(layers, place((y + rows_ahead) * side));
+      fetch(layers, place((y + rows_ahead) * side));
     for_each_cell(y, unwritten_.row(y) & layers.columns(), [&](std::size_t cell) {
       batch.cells[batch.count] = &cells_[cell];
       places[batch.count] = place(cell);

@@ -79,6 +79,8 @@ class FusionTile {
   static constexpr std::size_t side = CellSet::side;
   static constexpr std::size_t cell_count = side * side;
 
+  /// Lets the processor fetch what the next scan needs first.
+  void prefetch() const;
   /// Makes `scan` (at `time` [ms]) the open one, after the one before has had its say.
   void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules);
   /// Lets the marked cells, which are unmarked, reach the open scan.
@@ -123,11 +125,9 @@ class FusionTile {
   int refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
   Verdict judge(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
 
-  std::array<FilterCell, cell_count> cells_;
-  CellSet open_;                                     ///< with points in the open scan
-  CellSet unwritten_;                                ///< whose estimates have changed
-  std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
-  std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
+  // What each scan needs of a tile lies together at its beginning.
+  CellSet open_;       ///< with points in the open scan
+  CellSet unwritten_;  ///< whose estimates have changed
   bool any_refusals_ = false;
   std::vector<Sample> set_aside_;
   std::size_t sorted_ = 0;             ///< of those set aside, how many lie in order
@@ -139,6 +139,9 @@ class FusionTile {
   std::uint32_t still_since_ = 0;  ///< when the still filters began [ms]
   MotionEvidence news_;            ///< in the open scan
   std::int64_t evidence_ = 0;      ///< that still_ is wrong [MotionEvidence::unit]
+  std::array<FilterCell, cell_count> cells_;
+  std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
+  std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
 };
 
 }  // namespace aeolian

@@ -19,7 +19,7 @@ class FusionOrder : public testing::Test {
   static PointCloud scan(std::uint64_t number) {
     RandomStream random(7, number);
     std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 40000; ++i) {
+    for (int i = 0; i < 80000; ++i) {
       const double x = 1.02 * random.uniform() - 0.01;
       double z = 0.003 * std::sin(60 * (x - 0.002 * static_cast<double>(number))) + 0.001 * random.normal();
       if (random.uniform() < 0.03) z += 0.05 * random.uniform();
