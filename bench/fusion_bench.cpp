@@ -54,7 +54,9 @@ PointCloud random_points(std::size_t count, std::uint64_t number) {
   return cloud;
 }
 
-void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
+/// `interval` [s] from cloud to cloud: of quick ones, a still bed gathers some.
+void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds, double interval = 1,
+          bool read = false) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
   const GridGeometry geometry(-1, -1, 0.002, 1000, 1000);
@@ -67,9 +69,12 @@ void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
   std::size_t number = 0;
   const auto add = [&] {
     ++number;
-    return fusion.add(clouds[number % clouds.size()], pose, 0.1 * static_cast<double>(number));
+    const auto stamp = interval * static_cast<double>(number);
+    const aeolian::FusionResult result = fusion.add(clouds[number % clouds.size()], pose, stamp);
+    if (read) benchmark::DoNotOptimize(fusion.map(result.changed));
+    return result;
   };
-  for (int i = 0; i < 5; ++i) add();  // cells that are not known yet take longer, once
+  for (int i = 0; i < 10; ++i) add();  // cells that are not known yet take longer, once
   double quickest = 1e9;
   for (auto _ : state) {
     const auto start = Clock::now();
@@ -86,6 +91,12 @@ void fuse(benchmark::State& state, const std::vector<PointCloud>& clouds) {
 }
 
 void BM_DepthImageOverTheMap(benchmark::State& state) { fuse(state, {depth_image(2, 0), depth_image(2, 1)}); }
+void BM_DepthImageOverTheMapThatIsRead(benchmark::State& state) {
+  fuse(state, {depth_image(2, 0), depth_image(2, 1)}, 1, true);
+}
+void BM_DepthImageOverTheMapAt10Hz(benchmark::State& state) {
+  fuse(state, {depth_image(2, 0), depth_image(2, 1)}, 0.1, true);
+}
 void BM_DepthImageOfAPart(benchmark::State& state) {
   fuse(state, {depth_image(0.8, 0), depth_image(0.8, 1)});
 }
@@ -93,6 +104,8 @@ void BM_MillionRandomPoints(benchmark::State& state) {
   fuse(state, {random_points(1000000, 0), random_points(1000000, 1)});
 }
 BENCHMARK(BM_DepthImageOverTheMap)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_DepthImageOverTheMapThatIsRead)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_DepthImageOverTheMapAt10Hz)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_DepthImageOfAPart)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_MillionRandomPoints)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -23,8 +24,11 @@ constexpr double greatest_delay = 10;
 /// Milliseconds that the cells can count, less a reserve.
 constexpr double longest_time = 4e9;
 constexpr std::size_t points_at_once = 16384;
+/// Of fewer points it costs more to wake another thread than it saves.
+constexpr std::size_t points_for_threads = 65536;
+bool for_one_thread(std::size_t points) { return points < points_for_threads; }
 /// A still tile gathers scans for this part of the time for which a bed goes on rising or sinking.
-constexpr double gathering_share = 1.0 / 128;
+constexpr double gathering_share = 1.0 / 64;
 
 void require(bool allowed, const char* name, double value, const char* what) {
   if (!allowed)
@@ -112,6 +116,7 @@ struct HeightFusion::Workers {
     explicit Worker(const HeightChange& change) : steps(change) {}
     SampleBuckets buckets;
     PointCounts counts;
+    CellMarks marks;
     HeightSteps steps;
     std::size_t outlier_cells = 0;
     std::size_t outliers = 0;
@@ -130,8 +135,9 @@ struct HeightFusion::Workers {
   }
 
   void sort_into_tiles(const PointCloud& cloud, const PointLocator& locator, std::size_t tiles) {
+    const std::size_t grain = for_one_thread(cloud.size()) ? cloud.size() + 1 : points_at_once;
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, cloud.size(), points_at_once),
+        tbb::blocked_range<std::size_t>(0, cloud.size(), grain),
         [&](const tbb::blocked_range<std::size_t>& range) {
           Worker& worker = of_threads.local();
           if (worker.buckets.empty()) worker.buckets.reset(tiles, cloud.size());
@@ -158,7 +164,6 @@ HeightFusion::HeightFusion(const GridGeometry& geometry, const FusionParameters&
   rules_.gathering_time =
       static_cast<std::uint32_t>(std::min(1e3 * parameters.change.rate_time * gathering_share, 1e5));
   rules_.first_rate_variance = parameters.change.rate_sigma * parameters.change.rate_sigma;
-  rules_.known_rate_variance = static_cast<float>(0.5 * rules_.first_rate_variance);
   workers_ = std::make_unique<Workers>(parameters.change);
   clear();
 }
@@ -184,12 +189,13 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
   require(std::isfinite(stamp), "stamp", stamp, "finite");
   sensor.require_valid();
   set_clock(stamp);
+  is_written_ = false;
 
   FusionResult result;
   result.changed = TileMask(map_.geometry());
   workers_->reset();
   workers_->sort_into_tiles(cloud, locator(cloud, pose, map_.geometry(), parameters_, sensor), tiles_.size());
-  work_on_tiles(result);
+  work_on_tiles(cloud.size(), result);
   PointCounts counts;
   for (const Workers::Worker& worker : workers_->of_threads) {
     counts.add(worker.counts);
@@ -203,7 +209,8 @@ FusionResult HeightFusion::add(const PointCloud& cloud, const Eigen::Isometry3d&
   return result;
 }
 
-void HeightFusion::work_on_tiles(FusionResult& result) {
+void HeightFusion::work_on_tiles(std::size_t points, FusionResult& result) {
+  const bool is_read = std::exchange(is_read_, false);
   std::vector<std::size_t> active;
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
     for (const Workers::Worker& worker : workers_->of_threads)
@@ -211,8 +218,10 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
         active.push_back(tile);
         break;
       }
+  const std::size_t grain = for_one_thread(points) ? active.size() + 1 : 1;
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, active.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+      tbb::blocked_range<std::size_t>(0, active.size(), grain),
+      [&](const tbb::blocked_range<std::size_t>& range) {
         Workers::Worker& own = workers_->of_threads.local();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const std::size_t at = active[i];
@@ -222,18 +231,20 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
           const auto for_each_block = [&](auto&& visit) {
             for (const Workers::Worker& worker : workers_->of_threads) worker.buckets.for_each(at, visit);
           };
-          FusionTile::Rows rows = 0;
-          for_each_block(
-              [&](const Sample* samples, std::size_t count) { rows |= FusionTile::rows_of(samples, count); });
-          const TileLayers layers = layers_of_tile(at, result.changed);
-          tile.open(scan_, newest_, rows, rules_, own.steps, layers);
+          if (i + 1 < range.end() && tiles_[active[i + 1]]) tiles_[active[i + 1]]->prefetch();
+          tile.open(scan_, newest_, rules_);
+          for_each_block([&](const Sample* samples, std::size_t count) { own.marks.add(samples, count); });
+          tile.reach(own.marks, rules_, own.steps);
           for_each_block([&](const Sample* samples, std::size_t count) {
             agreeing += tile.add(samples, count, rules_);
           });
-          const FusionTile::Result of_tile = tile.publish(rows, rules_, layers);
-          own.outlier_cells += of_tile.outlier_cells;
-          own.outliers += of_tile.outliers;
-          if ((of_tile.written && agreeing > 0) || of_tile.new_cells > 0) {
+          const FusionTile::Verdicts verdicts = tile.verdicts(rules_);
+          own.outlier_cells += verdicts.outlier_cells;
+          own.outliers += verdicts.outliers;
+          const bool tells = (agreeing > 0 && !tile.gathers()) || verdicts.new_cells > 0;
+          if (tells && is_read)
+            tile.write(rules_, layers_of_tile(at, result.changed));  // while it is at hand
+          if (tells) {
             const int tiles_x = result.changed.tiles_x();
             result.changed.set_tile(static_cast<int>(at) % tiles_x, static_cast<int>(at) / tiles_x);
           }
@@ -241,13 +252,35 @@ void HeightFusion::work_on_tiles(FusionResult& result) {
       });
 }
 
-TileLayers HeightFusion::layers_of_tile(std::size_t tile, const TileMask& tiling) {
+const HeightMap& HeightFusion::map() const {
+  if (!is_written_) map(TileMask(map_.geometry(), true));
+  is_written_ = true;
+  is_read_ = true;
+  return map_;
+}
+
+const HeightMap& HeightFusion::map(const TileMask& tiles) const {
+  is_read_ = true;
+  const auto tiles_x = static_cast<std::size_t>(tiles.tiles_x());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tiles_.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+          if (tiles_[i] && tiles.tile(static_cast<int>(i % tiles_x), static_cast<int>(i / tiles_x)))
+            tiles_[i]->write(rules_, layers_of_tile(i, tiles));
+      });
+  return map_;
+}
+
+TileLayers HeightFusion::layers_of_tile(std::size_t tile, const TileMask& tiling) const {
   const GridGeometry& g = map_.geometry();
   const auto at = static_cast<int>(tile);
   const CellRange range = tiling.range(at % tiling.tiles_x(), at / tiling.tiles_x());
   const std::size_t first = g.index(range.x0, range.y0);
   const auto data = [&](const std::string& name) { return map_.layer(name).data() + first; };
-  return {{data(layer::elevation), data(layer::variance), data(layer::rate), data(layer::rate_variance)},
+  return {data(layer::elevation),
+          data(layer::variance),
+          data(layer::rate),
+          data(layer::rate_variance),
           static_cast<std::size_t>(range.y1 - range.y0),
           static_cast<std::size_t>(range.x1 - range.x0),
           static_cast<std::size_t>(g.nx())};
@@ -259,6 +292,7 @@ void HeightFusion::set_clock(double stamp) {
   const bool jumped = scan_ != 0 && (stamp < newest_stamp - greatest_delay || stamp < epoch_ ||
                                      stamp - epoch_ > 1e-3 * longest_time);
   if (jumped) {
+    map();  // tiles forget the points of which their estimates are made
     const auto end = newest_ + static_cast<std::uint32_t>(std::clamp(stamp - newest_stamp, 0.0, 1e5) * 1e3);
     HeightSteps steps(parameters_.change);
     for (const auto& tile : tiles_)
@@ -278,9 +312,9 @@ TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& m
   if (known.geometry() != g || mask.size() != g.size())
     throw Error("fusion: cells of another grid cannot replace those of the map");
   const KnownCells cells(known, reference_variance(parameters_), rules_.first_rate_variance);
-  HeightSteps steps(parameters_.change);
   TileMask changed(g);
   ++scan_;  // what came before is final
+  is_written_ = false;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (std::isnan(mask[i])) continue;
     const CellIndex at = g.cell_at(i);
@@ -290,7 +324,7 @@ TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& m
     const std::optional<CellEstimate> cell = cells.at(i);
     if (!tile && !cell) continue;
     if (!tile) tile = std::make_unique<FusionTile>();
-    tile->open(scan_, newest_, ~FusionTile::Rows{0}, rules_, steps, layers_of_tile(tile_at, changed));
+    tile->open(scan_, newest_, rules_);
     const auto in_tile = static_cast<std::size_t>(at.y % side * side + at.x % side);
     if (cell)
       tile->begin_cell(in_tile, *cell);
@@ -304,6 +338,7 @@ TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& m
     write(layer::variance, shown.variance);
     write(layer::rate, shown.rate);
     write(layer::rate_variance, shown.rate_variance);
+    tile->is_written(in_tile);
     changed.activate(at.x, at.y);
   }
   return changed;

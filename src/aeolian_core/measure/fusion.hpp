@@ -49,8 +49,8 @@ struct FusionResult {
 
 /// The live height map. Each cell tracks height and rate of change of the bed (HeightChange) and, as long as
 /// its tile of 32 x 32 cells is still, averages on without end; points are weighed by SensorNoise. One pass
-/// over the points, no separate step. A still tile takes quick scans together (those within 1/128 of
-/// rate_time): its layers are written once for all of them, with the first.
+/// over the points, no separate step. A still tile takes quick scans together (those within 1/64 of
+/// rate_time) and tells of them once, with the first.
 ///
 /// Clouds of one stamp are one scan: the map is the same, to the bit, however the scan is cut into clouds, in
 /// which order its points come and how many threads (oneTBB's) work on it. A cloud that is late by less than
@@ -91,7 +91,10 @@ class HeightFusion {
   /// on. Returns the tiles that have such cells. Throws Error for another grid.
   TileMask replace(const HeightMap& known, const HeightMap::Layer& mask);
 
-  const HeightMap& map() const { return map_; }
+  /// The map as it is: what clouds have changed is written when it is asked for, the layers of all tiles or
+  /// of some, the others being as they were. References stay valid; only one thread at a time may ask.
+  const HeightMap& map() const;
+  const HeightMap& map(const TileMask& tiles) const;
   /// How many points each cell rests on; unknown for unknown cells.
   HeightMap::Layer counts() const;
   void clear();
@@ -100,10 +103,12 @@ class HeightFusion {
   struct Workers;
 
   void set_clock(double stamp);
-  void work_on_tiles(FusionResult& result);
-  TileLayers layers_of_tile(std::size_t tile, const TileMask& tiling);
+  void work_on_tiles(std::size_t points, FusionResult& result);
+  TileLayers layers_of_tile(std::size_t tile, const TileMask& tiling) const;
 
-  HeightMap map_;
+  mutable HeightMap map_;
+  mutable bool is_written_ = true;  ///< the map is as the tiles say
+  mutable bool is_read_ = false;    ///< since the last cloud: its reader will most likely read on
   FusionParameters parameters_;
   FusionRules rules_;
   std::vector<std::unique_ptr<FusionTile>> tiles_;

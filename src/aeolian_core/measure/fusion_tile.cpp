@@ -2,19 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 namespace aeolian {
 namespace {
 
-// When a tile is taken to be still. `rate` is the mean of rate^2 / variance over its n cells: up to 1/4 on a
-// still bed (the noise's share of the tracking filter's variance), more than 1 where ripples pass. `drift` is
-// the mean of (tracked - still height)^2 / tracked variance: about 3/4 on a still bed. Both scatter as
-// 1 / sqrt(n); noise that is 15 % more than the sensor's model says looks like motion.
-constexpr std::int64_t least_cells = 16;
-bool looks_still(double rate, double scatter) { return rate < 0.25 + 0.7 * scatter; }
-bool looks_moving(double rate, double drift, double scatter) {
-  return rate > 0.30 + scatter || drift > 0.82 + 3.4 * scatter;
+// Whether a tile is still is decided by two sequential tests, one for each change of mind (Page 1954,
+// Biometrika 41, 100-115): logarithms of likelihood ratios add up scan by scan until they are `certain`. On a
+// still bed a tile is taken to move by chance once in more than exp(certain) = 5e8 scans (Lorden 1971, Ann.
+// Math. Stat. 42, 1897-1908), or exp(certain / k) where the noise has k times the variance that the sensor's
+// model says: 1e6 for 20 % more noise, 7e3 for 50 % more.
+constexpr double certain = 20;
+// Scans that it takes at least to recognise a rest: cells side by side that turn from rising to sinking at
+// the same time are no independent witnesses.
+constexpr double least_scans = 5;
+// Evidence against a rest that has not been recognised yet, at which the still filters begin anew.
+constexpr double doubtful = 3;
+constexpr std::int64_t of_evidence(double logarithm) {
+  return static_cast<std::int64_t>(logarithm * MotionEvidence::unit);
 }
+
+/// Stray points of a still tile: a grain or two in flight, the noise's tail.
+constexpr std::size_t few_points = FusionTile::cell_count / 32;
 
 constexpr double highest_flight = 0.5;  // of grains over the bed [m]
 
@@ -38,72 +48,98 @@ double variance_of(const SurfaceSum& sum, const FusionRules& rules) {
   return rules.gate.weight_scale / sum.weight;
 }
 
-void prefetch(const void* memory, std::size_t bytes) {
-  constexpr std::size_t line = 64;
-  for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(memory) + i, 1);
-}
-
-void prefetch(const RowLayers& row, std::size_t columns) {
-  for (float* const layer : {row.elevation, row.variance, row.rate, row.rate_variance})
-    prefetch(layer, columns * sizeof(float));
-}
-
-/// Calls `visit(row)` for each row of a set.
+/// Calls `visit(cell)` for each cell of a row's set.
 template <class Visit>
-void for_each_row(FusionTile::Rows rows, Visit&& visit) {
-  for (; rows != 0; rows &= rows - 1) visit(static_cast<std::size_t>(__builtin_ctz(rows)));
+void for_each_cell(std::size_t y, CellSet::Row row, Visit&& visit) {
+  for (; row != 0; row &= row - 1) visit(y * CellSet::side + static_cast<std::size_t>(__builtin_ctz(row)));
+}
+
+void fetch(const FilterCell& cell) { __builtin_prefetch(&cell, 1); }
+
+/// A row of a tile, whose first cell is at `first`.
+void fetch(const TileLayers& layers, std::size_t first) {
+  constexpr std::size_t cells_per_line = 64 / sizeof(float);
+  for (float* const layer : {layers.elevation, layers.variance, layers.rate, layers.rate_variance})
+    for (std::size_t i = 0; i < layers.width; i += cells_per_line) __builtin_prefetch(layer + first + i, 1);
 }
 
 }  // namespace
 
-FusionTile::Rows FusionTile::rows_of(const Sample* samples, std::size_t count) {
-  Rows rows = 0;
-  for (std::size_t i = 0; i < count; ++i) rows |= Rows{1} << (samples[i].cell() / side);
-  return rows;
-}
-
-void FusionTile::open(std::uint32_t scan, std::uint32_t time, Rows rows, const FusionRules& rules,
-                      HeightSteps& steps, const TileLayers& layers) {
-  if (scan != scan_) {
-    gathers_ = gathers_on(time, rules);
-    if (!gathers_) close(time, rows, rules, steps, layers);
-    scan_ = scan;
-    time_ = time;
+CellSet::Row CellMarks::take_row(std::size_t y) {
+  constexpr std::size_t at_once = sizeof(std::uint64_t);
+  constexpr std::uint64_t gathering_bits =
+      0x0102040810204080U;  // lowest bits of eight bytes into the highest
+  CellSet::Row row = 0;
+  for (std::size_t x = 0; x < CellSet::side; x += at_once) {
+    std::uint64_t bytes;
+    std::uint8_t* const marks = &marks_[y * CellSet::side + x];
+    std::memcpy(&bytes, marks, at_once);
+    if (bytes == 0) continue;
+    std::memset(marks, 0, at_once);
+    row |= static_cast<CellSet::Row>(bytes * gathering_bits >> 56) << x;
   }
-  open_rows(rows, steps);
+  return row;
 }
 
-void FusionTile::open_rows(Rows rows, HeightSteps& steps) {
-  for_each_row(rows & ~open_, [&](std::size_t y) {
-    const bool restart_still = still_ && row_time_[y] < still_since_;
-    predict(rows_[y], steps.after(time_ - row_time_[y]), restart_still);
-    row_time_[y] = time_;
-  });
-  open_ |= rows;
+void FusionTile::prefetch() const {
+  constexpr std::size_t line = 64;
+  const auto* const begin = reinterpret_cast<const char*>(this);
+  const auto* const end = reinterpret_cast<const char*>(cells_.data());
+  for (const char* at = begin; at < end; at += line) __builtin_prefetch(at, 1);
 }
 
-/// Points that were set aside wait for the next scan, which says more of them.
+void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules) {
+  if (scan == scan_) return;
+  gathers_ = gathers_on(time, rules);
+  if (!gathers_) {
+    take_set_aside(rules);
+    judge_motion(time);
+    open_.clear();
+    gathering_since_ = time;
+  }
+  scan_ = scan;
+  time_ = time;
+}
+
+/// Many points that were set aside wait for the next scan, which says more of them.
 bool FusionTile::gathers_on(std::uint32_t time, const FusionRules& rules) const {
-  return still_ && open_ != 0 && set_aside_.empty() && !any_refusals_ &&
+  return still_ && !open_.empty() && set_aside_.size() <= few_points &&
          time - gathering_since_ < rules.gathering_time;
 }
 
-/// Takes the open scan in, and lets those of `rows` that had points in it go on.
-void FusionTile::close(std::uint32_t time, Rows rows, const FusionRules& rules, HeightSteps& steps,
-                       const TileLayers& layers) {
-  take_set_aside(rules);
-  TileMotion motion;
-  for_each_row(open_, [&](std::size_t y) {
-    prefetch(&rows_[y] + 1, sizeof(FilterRow));
-    if (y < layers.rows) prefetch(layers.row(y), layers.columns);
-    const bool goes_on = (rows >> y & 1U) != 0;
-    const HeightStep step = goes_on ? steps.after(time - row_time_[y]) : HeightStep();
-    motion.add(close_scan(rows_[y], still_, rules.scale, rules.known_rate_variance, step));
-    if (goes_on) row_time_[y] = time;
-  });
-  judge_motion(motion);
-  open_ &= rows;
-  gathering_since_ = time;
+void FusionTile::reach(CellMarks& marks, const FusionRules& rules, HeightSteps& steps) {
+  std::array<std::uint16_t, cell_count> cells;
+  std::size_t count = 0;
+  for (std::size_t y = 0; y < side; ++y) {
+    const CellSet::Row marked = marks.take_row(y);
+    unwritten_.row(y) |= marked;
+    for_each_cell(y, marked & open_.row(y), [&](std::size_t cell) { fetch(cells_[cell]); });
+    for_each_cell(y, marked & ~open_.row(y),
+                  [&](std::size_t cell) { cells[count++] = static_cast<std::uint16_t>(cell); });
+    open_.row(y) |= marked;
+  }
+  move_on(cells.data(), count, rules, steps);
+}
+
+/// Cells take the points of their last scan in and go on to the time of the open one.
+void FusionTile::move_on(const std::uint16_t* cells, std::size_t count, const FusionRules& rules,
+                         HeightSteps& steps) {
+  constexpr std::size_t ahead = 2 * CellBatch::size;
+  for (std::size_t i = 0; i < std::min(count, ahead); ++i) fetch(cells_[cells[i]]);
+  for (std::size_t first = 0; first < count; first += CellBatch::size) {
+    CellBatch batch;
+    CellSteps in;
+    batch.count = std::min(CellBatch::size, count - first);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      if (first + i + ahead < count) fetch(cells_[cells[first + i + ahead]]);
+      FilterCell& cell = cells_[cells[first + i]];
+      batch.cells[i] = &cell;
+      in.steps[i] = &steps.after(time_ - cell.time);
+      in.still_share[i] = cell.time < still_since_ ? 0.0F : 1.0F;
+      cell.time = time_;
+    }
+    news_.add(advance(batch, in, rules.scale));
+  }
 }
 
 std::size_t FusionTile::add(const Sample* samples, std::size_t count, const FusionRules& rules) {
@@ -113,17 +149,16 @@ std::size_t FusionTile::add(const Sample* samples, std::size_t count, const Fusi
   const double squared_relief = rules.gate.relief * rules.gate.relief;
   for (std::size_t i = 0; i < count; ++i) {
     const Sample sample = samples[i];
-    FilterRow& row = rows_[sample.cell() / side];
-    const std::size_t at = sample.cell() % side;
-    const auto steps = static_cast<double>(std::int64_t{sample.height()} - row.height[at]);
-    const auto variance = static_cast<double>(row.height_variance[at]);
+    FilterCell& cell = cells_[sample.cell()];
+    const auto steps = static_cast<double>(std::int64_t{sample.height()} - cell.height);
+    const auto variance = static_cast<double>(cell.height_variance);
     const double distance = fixed::step * steps;
     const double own = squared_gate * variance + squared_relief;
     const bool agrees = !rules.robust || (distance * distance - own) * sample.weight() <= gate_scale;
     if (agrees && variance > 0) {
-      row.weight[at] += sample.weight();
-      row.moment[at] += sample.weight() * steps;
-      ++row.count[at];
+      cell.weight += sample.weight();
+      cell.moment += sample.weight() * steps;
+      ++cell.count;
     } else {
       set_aside_.push_back(sample);
     }
@@ -131,15 +166,19 @@ std::size_t FusionTile::add(const Sample* samples, std::size_t count, const Fusi
   return count - (set_aside_.size() - set_aside);
 }
 
-void FusionTile::judge_motion(const TileMotion& motion) {
-  if (motion.cells < least_cells) return;
-  const double scale = 1 / (TileMotion::unit * static_cast<double>(motion.cells));
-  const double rate = scale * static_cast<double>(motion.rate);
-  const double drift = scale * static_cast<double>(motion.drift);
-  const double scatter = 1 / std::sqrt(static_cast<double>(motion.cells));
-  const bool was_still = still_;
-  still_ = still_ ? !looks_moving(rate, drift, scatter) : looks_still(rate, scatter);
-  if (still_ && !was_still) still_since_ = time_;
+/// Takes the evidence of the open scan into account before the one of `time`.
+void FusionTile::judge_motion(std::uint32_t time) {
+  evidence_ += still_ ? news_.drift : std::min(news_.rest, of_evidence(certain / least_scans));
+  news_ = {};
+  if (still_) evidence_ = std::max<std::int64_t>(evidence_, 0);
+  const bool changes = evidence_ > of_evidence(certain);
+  if (changes) {
+    still_ = !still_;
+    unwritten_.fill();
+  }
+  const bool never_was = !still_ && (changes || evidence_ < -of_evidence(doubtful));
+  if (never_was) still_since_ = time;
+  if (changes || never_was) evidence_ = 0;
 }
 
 int FusionTile::refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const {
@@ -156,9 +195,10 @@ int FusionTile::refusals_in_row(std::size_t cell, const SurfaceSum& sum, const F
 FusionTile::Verdict FusionTile::judge(std::size_t cell, const SurfaceSum& sum,
                                       const FusionRules& rules) const {
   if (!known(cell)) return Verdict::begins;
-  if (row(cell).weight[cell % side] >= sum.weight) return Verdict::agrees;
-  const double drop = fixed::metres(row(cell).height[cell % side]) - sum.height();
-  const bool under_a_grain = drop > 0 && drop < highest_flight && sum.count >= row(cell).count[cell % side];
+  const FilterCell& known_cell = cells_[cell];
+  if (known_cell.weight >= sum.weight) return Verdict::agrees;
+  const double drop = fixed::metres(known_cell.height) - sum.height();
+  const bool under_a_grain = drop > 0 && drop < highest_flight && sum.count >= known_cell.count;
   const bool persists = refusals_in_row(cell, sum, rules) > rules.patience;
   return persists || under_a_grain ? Verdict::begins : Verdict::refused;
 }
@@ -169,7 +209,7 @@ void FusionTile::take_set_aside(const FusionRules& rules) {
     const Verdict verdict = judge(at, sum, rules);
     if (verdict == Verdict::begins) {
       begin_cell(at, {sum.height(), variance_of(sum, rules), 0, rules.first_rate_variance});
-      row(at).count[at % side] = sum.count;
+      cells_[at].count = sum.count;
     } else if (verdict == Verdict::refused) {
       refusals_[at] = static_cast<std::uint8_t>(refusals_in_row(at, sum, rules));
       rival_[at] = fixed::steps(sum.height());
@@ -189,7 +229,7 @@ void FusionTile::forget_refusals() {
   };
   any_refusals_ = false;
   for (std::size_t i = 0; i < cell_count; ++i) {
-    if (refusals_[i] != 0 && row(i).weight[i % side] > 0 && !has_set_aside(i)) refusals_[i] = 0;
+    if (refusals_[i] != 0 && open_.has(i) && cells_[i].weight > 0 && !has_set_aside(i)) refusals_[i] = 0;
     any_refusals_ |= refusals_[i] != 0;
   }
 }
@@ -201,67 +241,86 @@ void FusionTile::sort_set_aside() {
   sorted_ = set_aside_.size();
 }
 
-FusionTile::Result FusionTile::publish(Rows rows, const FusionRules& rules, const TileLayers& layers) {
-  Result result;
-  result.written = !gathers_;
-  if (!gathers_)
-    for_each_row(rows, [&](std::size_t y) {
-      write_estimates(rows_[y], still_, rules.scale, layers.row(y), layers.columns);
-    });
-  if (set_aside_.empty()) return result;
-
-  const auto write = [&](std::size_t at, const CellEstimate& estimate) {
-    const RowLayers to = layers.row(at / side);
-    to.elevation[at % side] = static_cast<float>(estimate.height);
-    to.variance[at % side] = static_cast<float>(estimate.variance);
-    to.rate[at % side] = static_cast<float>(estimate.rate);
-    to.rate_variance[at % side] = static_cast<float>(estimate.rate_variance);
-  };
+FusionTile::Verdicts FusionTile::verdicts(const FusionRules& rules) {
+  Verdicts result;
   sort_set_aside();
   for_each_surface(set_aside_, rules, [&](std::size_t at, const SurfaceSum& sum) {
     const Verdict verdict = judge(at, sum, rules);
     if (verdict == Verdict::begins) {
       ++result.new_cells;
-      write(at, {sum.height(), variance_of(sum, rules), 0, rules.first_rate_variance});
     } else if (verdict == Verdict::refused) {
       ++result.outlier_cells;
       result.outliers += sum.count;
-      write(at, estimate(row(at), at % side, still_, rules.scale));
-    } else if (gathers_) {
-      result.written = true;
-      write(at, estimate(row(at), at % side, still_, rules.scale));
     }
   });
   return result;
 }
 
+void FusionTile::write(const FusionRules& rules, const TileLayers& layers) {
+  constexpr std::size_t rows_ahead = 3;
+  const auto place = [&](std::size_t cell) { return cell / side * layers.stride + cell % side; };
+  CellBatch batch;
+  std::array<std::size_t, CellBatch::size> places{};
+  std::array<float, CellBatch::size> still_share{};
+  const auto flush = [&] {
+    const CellEstimates of_batch = estimates(batch, still_share, rules.scale);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      layers.elevation[places[i]] = of_batch.height[i];
+      layers.variance[places[i]] = of_batch.variance[i];
+      layers.rate[places[i]] = of_batch.rate[i];
+      layers.rate_variance[places[i]] = of_batch.rate_variance[i];
+    }
+    batch.count = 0;
+  };
+  for (std::size_t y = 0; y < layers.rows; ++y) {
+    if (y + rows_ahead < layers.rows && unwritten_.row(y + rows_ahead) != 0)
+      fetch(layers, place((y + rows_ahead) * side));
+    for_each_cell(y, unwritten_.row(y) & layers.columns(), [&](std::size_t cell) {
+      batch.cells[batch.count] = &cells_[cell];
+      places[batch.count] = place(cell);
+      still_share[batch.count] = rests(cell) ? 1.0F : 0.0F;
+      if (++batch.count == CellBatch::size) flush();
+    });
+  }
+  flush();
+  for_each_surface(set_aside_, rules, [&](std::size_t cell, const SurfaceSum& sum) {
+    if (!unwritten_.has(cell) || judge(cell, sum, rules) != Verdict::begins) return;
+    layers.elevation[place(cell)] = static_cast<float>(sum.height());
+    layers.variance[place(cell)] = static_cast<float>(variance_of(sum, rules));
+    layers.rate[place(cell)] = 0;
+    layers.rate_variance[place(cell)] = static_cast<float>(rules.first_rate_variance);
+  });
+  unwritten_.clear();
+}
+
 void FusionTile::begin_cell(std::size_t cell, const CellEstimate& known) {
-  FilterRow& to = row(cell);
-  const std::size_t at = cell % side;
-  to.height[at] = fixed::steps(known.height);
-  to.rate[at] = static_cast<float>(known.rate);
-  to.height_variance[at] = static_cast<float>(known.variance);
-  to.covariance[at] = 0;
-  to.rate_variance[at] = static_cast<float>(known.rate_variance);
-  to.still_offset[at] = static_cast<float>(known.height - fixed::metres(to.height[at]));
-  to.still_variance[at] = to.height_variance[at];
-  to.count[at] = 1;
-  to.weight[at] = 0;
-  to.moment[at] = 0;
+  FilterCell& to = cells_[cell];
+  to = {};
+  to.height = fixed::steps(known.height);
+  to.rate = static_cast<float>(known.rate);
+  to.height_variance = static_cast<float>(known.variance);
+  to.rate_variance = static_cast<float>(known.rate_variance);
+  to.still_offset = static_cast<float>(known.height - fixed::metres(to.height));
+  to.still_variance = to.height_variance;
+  to.count = 1;
+  to.time = time_;
   refusals_[cell] = 0;
+  unwritten_.add(cell);
 }
 
 void FusionTile::forget_cell(std::size_t cell) {
   begin_cell(cell, {0, 0, 0, 0});
-  row(cell).count[cell % side] = 0;
+  cells_[cell].count = 0;
 }
 
 void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {
-  close(end, ~Rows{0}, rules, steps, {});
+  open(scan_ + 1, end, rules);
   time_ = end;
-  open_rows(~Rows{0}, steps);
-  open_ = 0;
-  row_time_.fill(0);
+  std::array<std::uint16_t, cell_count> all;
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  // Written estimates hold for the last points, which are gone from the cells thereafter.
+  move_on(all.data(), all.size(), rules, steps);
+  for (FilterCell& cell : cells_) cell.time = 0;
   gathering_since_ = 0;
   still_since_ = 0;
   scan_ = 0;
@@ -273,7 +332,7 @@ void FusionTile::write_counts(const FusionRules& rules, float* counts, std::size
     counts[at / side * stride + at % side] = static_cast<float>(count);
   };
   for (std::size_t at = 0; at < cell_count; ++at)
-    if (known(at)) write(at, row(at).count[at % side]);
+    if (known(at)) write(at, cells_[at].count);
   for_each_surface(set_aside_, rules, [&](std::size_t at, const SurfaceSum& sum) {
     if (judge(at, sum, rules) == Verdict::begins) write(at, sum.count);
   });

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "aeolian_core/measure/lower_surface.hpp"
 #include "aeolian_core/measure/tile_filter.hpp"
+#include "aeolian_core/surface/tile_mask.hpp"
 
 namespace aeolian {
 
@@ -15,57 +17,94 @@ struct FusionRules {
   bool robust = true;
   int patience = 2;
   double first_rate_variance = 0;    ///< of a new cell [m^2/s^2]
-  float known_rate_variance = 0;     ///< of a cell that knows something of its rate [m^2/s^2]
   std::uint32_t gathering_time = 0;  ///< for so long a still tile takes its scans together [ms]
   PointScale scale;
 };
 
+/// A set of cells of a tile.
+class CellSet {
+ public:
+  static constexpr std::size_t side = TileMask::tile_cells;
+  using Row = std::uint32_t;  ///< a bit for each column
+
+  bool has(std::size_t cell) const { return (rows_[cell / side] >> (cell % side) & 1U) != 0; }
+  void add(std::size_t cell) { rows_[cell / side] |= Row{1} << (cell % side); }
+  void remove(std::size_t cell) { rows_[cell / side] &= ~(Row{1} << (cell % side)); }
+  void clear() { rows_.fill(0); }
+  void fill() { rows_.fill(~Row{0}); }
+  Row& row(std::size_t y) { return rows_[y]; }
+  bool empty() const {
+    Row any = 0;
+    for (const Row row : rows_) any |= row;
+    return any == 0;
+  }
+
+ private:
+  std::array<Row, side> rows_{};
+};
+
 /// Where a tile writes its estimates: as many rows and columns as lie in the map, `stride` cells apart.
 struct TileLayers {
-  RowLayers first;
-  std::size_t rows, columns, stride;
+  float *elevation, *variance, *rate, *rate_variance;  ///< of the first cell
+  std::size_t rows, width, stride;
 
-  RowLayers row(std::size_t y) const {
-    const std::size_t at = y * stride;
-    return {first.elevation + at, first.variance + at, first.rate + at, first.rate_variance + at};
+  CellSet::Row columns() const {
+    return width == CellSet::side ? ~CellSet::Row{0} : (CellSet::Row{1} << width) - 1;
   }
+};
+
+/// Marks the cells in which samples lie, quickly.
+class CellMarks {
+ public:
+  void add(const Sample* samples, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) marks_[samples[i].cell()] = 1;
+  }
+  /// The marked cells of a row, which are unmarked.
+  CellSet::Row take_row(std::size_t y);
+
+ private:
+  std::array<std::uint8_t, CellSet::side * CellSet::side> marks_{};
 };
 
 /// Up to 32 x 32 cells of the live height map.
 ///
 /// Points that agree with their cell's prediction go into its sums. All others, and those of unknown cells,
 /// are set aside, sorted; their lower surface begins a new cell, or replaces a known one when it persists.
-/// Scans that follow each other quickly say the same of a still bed: such a tile gathers their points, moves
-/// on and is written once for all of them. Everything is a function of what is known before the scan and of
-/// the set of the scan's points, not of their order.
+/// A cell takes the sums in and moves on in time with the next scan that has points in it. Scans that follow
+/// each other quickly say the same of a still bed: such a tile gathers their points and moves on once for all
+/// of them. Everything is a function of what is known before the scan and of the set of the scan's points,
+/// not of their order.
 class FusionTile {
  public:
-  static constexpr std::size_t side = FilterRow::cells;
+  static constexpr std::size_t side = CellSet::side;
   static constexpr std::size_t cell_count = side * side;
-  /// A bit for each row of a tile.
-  using Rows = std::uint32_t;
 
-  /// The rows in which samples lie.
-  static Rows rows_of(const Sample* samples, std::size_t count);
-  /// Makes `scan` (at `time` [ms]) the open one, after taking in the one before, and lets `rows` reach it.
-  void open(std::uint32_t scan, std::uint32_t time, Rows rows, const FusionRules& rules, HeightSteps& steps,
-            const TileLayers& layers);
-  /// Adds samples, whose rows are open, to the open scan; how many agree with what is known.
+  /// Lets the processor fetch what the next scan needs first.
+  void prefetch() const;
+  /// Makes `scan` (at `time` [ms]) the open one, after the one before has had its say.
+  void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules);
+  /// Lets the marked cells, which are unmarked, reach the open scan.
+  void reach(CellMarks& marks, const FusionRules& rules, HeightSteps& steps);
+  /// Adds samples, whose cells have reached the open scan; how many agree with what is known.
   std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules);
-  struct Result {
-    bool written = false;           ///< estimates with the points of this call
-    std::size_t new_cells = 0;      ///< that begin, or begin anew, in the open scan
+  /// What became of the points that were set aside in the open scan.
+  struct Verdicts {
+    std::size_t new_cells = 0;      ///< that begin, or begin anew
     std::size_t outlier_cells = 0;  ///< whose points were refused
     std::size_t outliers = 0;       ///< points of these cells that were refused
   };
-  /// Writes the estimates of the cells with points in the open scan that lie in `rows`, or, of a tile that
-  /// gathers, of those with points that were set aside.
-  Result publish(Rows rows, const FusionRules& rules, const TileLayers& layers);
+  Verdicts verdicts(const FusionRules& rules);
+  /// The open scan has been added to the one before.
+  bool gathers() const { return gathers_; }
 
+  /// Writes the estimates that have changed since they were last written.
+  void write(const FusionRules& rules, const TileLayers& layers);
   /// Begins a cell from a known map at the tile's time; the open scan has no points in the tile yet.
   void begin_cell(std::size_t cell, const CellEstimate& known);
   /// Makes a cell unknown; likewise.
   void forget_cell(std::size_t cell);
+  /// Somebody else has written what there is to say of a cell.
+  void is_written(std::size_t cell) { unwritten_.remove(cell); }
   /// Moves on to the time `end`, which then is zero: the clock jumped back.
   void restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps);
   /// Writes the number of points on which each known cell rests, the open scan included; rows `stride` apart.
@@ -74,25 +113,21 @@ class FusionTile {
  private:
   enum class Verdict { agrees, refused, begins };
 
-  FilterRow& row(std::size_t cell) { return rows_[cell / side]; }
-  const FilterRow& row(std::size_t cell) const { return rows_[cell / side]; }
   bool gathers_on(std::uint32_t time, const FusionRules& rules) const;
-  void close(std::uint32_t time, Rows rows, const FusionRules& rules, HeightSteps& steps,
-             const TileLayers& layers);
-  void open_rows(Rows rows, HeightSteps& steps);
-  bool known(std::size_t cell) const { return row(cell).height_variance[cell % side] > 0; }
-  void judge_motion(const TileMotion& motion);
+  bool known(std::size_t cell) const { return cells_[cell].height_variance > 0; }
+  /// Whether the still filter has run, and speaks, since the bed came to rest.
+  bool rests(std::size_t cell) const { return still_ && cells_[cell].time >= still_since_; }
+  void move_on(const std::uint16_t* cells, std::size_t count, const FusionRules& rules, HeightSteps& steps);
+  void judge_motion(std::uint32_t time);
   void take_set_aside(const FusionRules& rules);
   void forget_refusals();
   void sort_set_aside();
   int refusals_in_row(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
   Verdict judge(std::size_t cell, const SurfaceSum& sum, const FusionRules& rules) const;
 
-  std::array<FilterRow, side> rows_;
-  std::array<std::uint32_t, side> row_time_{};       ///< that a row's prediction has reached [ms]
-  Rows open_ = 0;                                    ///< rows with points in the open scan
-  std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
-  std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
+  // What each scan needs of a tile lies together at its beginning.
+  CellSet open_;       ///< with points in the open scan
+  CellSet unwritten_;  ///< whose estimates have changed
   bool any_refusals_ = false;
   std::vector<Sample> set_aside_;
   std::size_t sorted_ = 0;             ///< of those set aside, how many lie in order
@@ -101,7 +136,12 @@ class FusionTile {
   std::uint32_t gathering_since_ = 0;  ///< [ms]
   bool gathers_ = false;               ///< the open scan has been added to the one before
   bool still_ = false;
-  std::uint32_t still_since_ = 0;  ///< [ms]
+  std::uint32_t still_since_ = 0;  ///< when the still filters began [ms]
+  MotionEvidence news_;            ///< in the open scan
+  std::int64_t evidence_ = 0;      ///< that still_ is wrong [MotionEvidence::unit]
+  std::array<FilterCell, cell_count> cells_;
+  std::array<std::int32_t, cell_count> rival_{};     ///< where refused points lay [steps]
+  std::array<std::uint8_t, cell_count> refusals_{};  ///< scans in a row whose points disagreed alike
 };
 
 }  // namespace aeolian

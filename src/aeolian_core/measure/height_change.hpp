@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,15 +31,28 @@ struct HeightStep {
 
 HeightStep height_step(const HeightChange& change, double seconds);
 
+/// The same in single precision, a row of eight numbers for the filters.
+struct alignas(32) FilterStep {
+  FilterStep() = default;
+  explicit FilterStep(const HeightStep& step)
+      : height_per_rate(static_cast<float>(step.height_per_rate)),
+        rate_kept(static_cast<float>(step.rate_kept)),
+        height_variance(static_cast<float>(step.height_variance)),
+        covariance(static_cast<float>(step.covariance)),
+        rate_variance(static_cast<float>(step.rate_variance)) {}
+  float height_per_rate = 0, rate_kept = 1, height_variance = 0, covariance = 0, rate_variance = 0;
+  std::array<float, 3> unused{};
+};
+
 /// The steps of the times that clouds lie apart, in whole milliseconds: a few, asked for very often.
 class HeightSteps {
  public:
   explicit HeightSteps(const HeightChange& change) : change_(change), steps_(slots) {}
 
-  const HeightStep& after(std::uint32_t milliseconds) {
+  const FilterStep& after(std::uint32_t milliseconds) {
     Slot& slot = steps_[(milliseconds * 2654435769U) >> (32 - bits)];
     if (!slot.used || slot.milliseconds != milliseconds)
-      slot = {height_step(change_, 1e-3 * milliseconds), milliseconds, true};
+      slot = {FilterStep(height_step(change_, 1e-3 * milliseconds)), milliseconds, true};
     return slot.step;
   }
 
@@ -46,7 +60,7 @@ class HeightSteps {
   static constexpr int bits = 6;
   static constexpr std::size_t slots = std::size_t{1} << bits;
   struct Slot {
-    HeightStep step;
+    FilterStep step;
     std::uint32_t milliseconds = 0;
     bool used = false;
   };

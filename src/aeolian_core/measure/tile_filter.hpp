@@ -1,47 +1,31 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "aeolian_core/measure/fixed_point.hpp"
 #include "aeolian_core/measure/height_change.hpp"
-#include "aeolian_core/surface/tile_mask.hpp"
 
 namespace aeolian {
 
-/// The filters of a row of 32 cells, an array for each number: two Kalman filters a cell as predicted for the
-/// row's time, and the sums of the open scan's points, from which the estimate follows. All of a row lies
-/// together, so that rows without points cost no memory's time.
+/// The filters of a cell as predicted for its time, and the sums of the points that it has got since, from
+/// which the estimate follows: a line of the cache, so that only cells with points cost memory's time.
 ///
 /// The first filter tracks height and rate under HeightChange. The second takes the bed to be still: its
 /// variance falls as long as nothing moves. Which of them speaks, the tile decides.
-struct alignas(64) FilterRow {
-  static constexpr std::size_t cells = TileMask::tile_cells;
-
-  std::int32_t height[cells] = {};    ///< tracked [steps]
-  float rate[cells] = {};             ///< [m/s]
-  float height_variance[cells] = {};  ///< [m^2]; 0: nothing is known of the cell
-  float covariance[cells] = {};       ///< [m^2/s]
-  float rate_variance[cells] = {};    ///< [m^2/s^2]
-  float still_offset[cells] = {};     ///< height of the still filter minus tracked height [m]
-  float still_variance[cells] = {};   ///< [m^2]
-  std::uint32_t count[cells] = {};    ///< points on which a known cell rests
-  double weight[cells] = {};          ///< of the scan's points
-  double moment[cells] = {};          ///< of the scan's points: weight x (height - tracked) [steps]
-};
-
-/// How much the cells of a tile seem to move, in whole numbers.
-struct TileMotion {
-  static constexpr int unit = 256;
-  std::int64_t cells = 0;  ///< with points, whose rate is known somewhat
-  std::int64_t rate = 0;   ///< sum of rate^2 / variance [1/unit]
-  std::int64_t drift = 0;  ///< sum of (still - tracked height)^2 / tracked variance [1/unit]
-
-  void add(const TileMotion& other) {
-    cells += other.cells;
-    rate += other.rate;
-    drift += other.drift;
-  }
+struct alignas(64) FilterCell {
+  std::int32_t height = 0;    ///< tracked [steps]
+  float rate = 0;             ///< [m/s]
+  float height_variance = 0;  ///< [m^2]; 0: nothing is known of the cell
+  float covariance = 0;       ///< [m^2/s]
+  float rate_variance = 0;    ///< [m^2/s^2]
+  float still_offset = 0;     ///< height of the still filter minus tracked height [m]
+  float still_variance = 0;   ///< [m^2]
+  std::uint32_t count = 0;    ///< points on which a known cell rests
+  double weight = 0;          ///< of the points
+  double moment = 0;          ///< of the points: weight x (height - tracked) [steps]
+  std::uint32_t time = 0;     ///< of the prediction [ms]
 };
 
 /// From the sums of points to what they say of a cell.
@@ -53,13 +37,37 @@ struct PointScale {
   double pull = 0;         ///< of a moment [1/m]
 };
 
-/// Takes the open scan's points into the filters, empties the sums and moves both filters on in time. A rate
-/// variance below `known_rate_variance` counts as known.
-TileMotion close_scan(FilterRow& row, bool still, const PointScale& scale, float known_rate_variance,
-                      const HeightStep& step);
+/// Some cells that are worked on together.
+struct CellBatch {
+  static constexpr std::size_t size = 16;
+  std::array<FilterCell*, size> cells;
+  std::size_t count = 0;
+};
 
-/// Moves both filters on in time; with `restart_still` the still one begins with what is tracked.
-void predict(FilterRow& row, const HeightStep& step, bool restart_still);
+/// How a batch of cells goes on.
+struct CellSteps {
+  std::array<const FilterStep*, CellBatch::size> steps;
+  /// 1, or 0 where the still filter begins with what is tracked.
+  std::array<float, CellBatch::size> still_share;
+};
+
+/// What points say of whether the bed is still: natural logarithms of likelihood ratios, in whole numbers.
+struct MotionEvidence {
+  static constexpr double unit = 1 << 16;  ///< of a ratio of e
+  std::int64_t rest =
+      0;  ///< they are where the still filter expects them, rather than where the tracking one does
+  std::int64_t drift = 0;  ///< they are off the still filter the way in which the tracking one has gone
+
+  void add(const MotionEvidence& other) {
+    rest += other.rest;
+    drift += other.drift;
+  }
+};
+
+/// Takes the points of some cells into their filters, empties the sums and moves both filters on by the
+/// steps. Returns what the points say, but for cells whose still filter begins anew. Steps past the batch are
+/// filled up.
+MotionEvidence advance(const CellBatch& batch, CellSteps& steps, const PointScale& scale);
 
 /// What a cell says of the bed.
 struct CellEstimate {
@@ -69,18 +77,13 @@ struct CellEstimate {
   double rate_variance = 0;  ///< [m^2/s^2]
 };
 
-/// A row of cells in the layers of a map.
-struct RowLayers {
-  float* elevation;
-  float* variance;
-  float* rate;
-  float* rate_variance;
+/// What some cells say of the bed, NaN where nothing is known.
+struct CellEstimates {
+  std::array<float, CellBatch::size> height, variance, rate, rate_variance;
 };
 
-/// Writes what the cells with points in the open scan say of the bed, these points included.
-void write_estimates(const FilterRow& row, bool still, const PointScale& scale, const RowLayers& layers,
-                     std::size_t columns);
-/// The same of one cell, with or without points.
-CellEstimate estimate(const FilterRow& row, std::size_t column, bool still, const PointScale& scale);
+/// The same of some cells, their points included; where `still_share` is 1 the still filter speaks.
+CellEstimates estimates(const CellBatch& batch, const std::array<float, CellBatch::size>& still_share,
+                        const PointScale& scale);
 
 }  // namespace aeolian

@@ -43,6 +43,8 @@ const HeightFusion& LiveMap::fusion() const {
 
 const HeightMap& LiveMap::map() const { return fusion().map(); }
 
+const HeightMap& LiveMap::map(const TileMask& up_to_date) const { return fusion().map(up_to_date); }
+
 std_msgs::Header LiveMap::header() const {
   std_msgs::Header header;
   header.frame_id = settings_.frame;

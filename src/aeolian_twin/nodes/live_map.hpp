@@ -27,8 +27,10 @@ class LiveMap {
   explicit LiveMap(const Settings& settings);
 
   bool begun() const { return fusion_.has_value(); }
-  /// Both throw Error unless the map has begun.
+  /// All throw Error unless the map has begun. Of a map of which only some tiles are up to date, see
+  /// HeightFusion.
   const HeightMap& map() const;
+  const HeightMap& map(const TileMask& up_to_date) const;
   StoredMap stored() const;
   const std::string& frame() const { return settings_.frame; }
   /// Of the newest cloud or the file; zero: none yet.

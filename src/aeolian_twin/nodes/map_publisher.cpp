@@ -63,7 +63,7 @@ void MapPublisher::begin_updates() {
 }
 
 void MapPublisher::publish_changes() {
-  const HeightMap& map = live_.map();
+  const HeightMap& map = live_.map(changed_);
   const TileMask news = unseen_->take(map, changed_);
   changed_.clear();
   std::vector<CellRange> parts = rectangles(news);

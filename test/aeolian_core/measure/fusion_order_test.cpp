@@ -1,4 +1,4 @@
-/// The map is the same to the bit whatever the order, the chunks and the threads.
+/// The map is the same to the bit whatever the order, the chunks, the threads and when it is read.
 #include <algorithm>
 #include <cstring>
 
@@ -19,7 +19,7 @@ class FusionOrder : public testing::Test {
   static PointCloud scan(std::uint64_t number) {
     RandomStream random(7, number);
     std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 40000; ++i) {
+    for (int i = 0; i < 80000; ++i) {
       const double x = 1.02 * random.uniform() - 0.01;
       double z = 0.003 * std::sin(60 * (x - 0.002 * static_cast<double>(number))) + 0.001 * random.normal();
       if (random.uniform() < 0.03) z += 0.05 * random.uniform();
@@ -76,6 +76,13 @@ TEST_F(FusionOrder, OfChunks) {
                    }));
 }
 
+TEST_F(FusionOrder, OfReading) {
+  expect_same_bits(whole(), map([](HeightFusion& fusion, const PointCloud& cloud, double stamp) {
+                     const FusionResult result = fusion.add(cloud, pose(), stamp);
+                     stamp < 3 ? fusion.map() : fusion.map(result.changed);
+                   }));
+}
+
 /// Rows of cells wait while others are seen, and the bed begins to move and comes to rest again.
 TEST_F(FusionOrder, OfChunksOfBandsOfABedThatRestsAndMoves) {
   const auto map = [&](std::size_t chunk) {
@@ -102,7 +109,7 @@ TEST_F(FusionOrder, OfChunksOfBandsOfABedThatRestsAndMoves) {
 
 /// At 10 Hz a still tile takes several scans together; sometimes a grain flies; then ripples begin to
 /// migrate.
-TEST_F(FusionOrder, OfChunksOfQuickScansOfABedThatRestsAndMoves) {
+TEST_F(FusionOrder, OfChunksAndReadingOfQuickScansOfABedThatRestsAndMoves) {
   constexpr int still_scans = 300;
   constexpr int moving_scans = 200;
   constexpr double deposition = 6e-5;  // [m/s]
@@ -111,7 +118,7 @@ TEST_F(FusionOrder, OfChunksOfQuickScansOfABedThatRestsAndMoves) {
   };
   const GridGeometry geometry(0, 0, 0.01, 64, 64);
   int tiles_written = 0;  // in the last five seconds of rest
-  const auto map = [&](std::size_t chunk) {
+  const auto map = [&](std::size_t chunk, bool read = false) {
     HeightFusion fusion(geometry, FusionParameters());
     tiles_written = 0;
     for (int k = 0; k < still_scans + moving_scans; ++k) {
@@ -128,6 +135,8 @@ TEST_F(FusionOrder, OfChunksOfQuickScansOfABedThatRestsAndMoves) {
       for (std::size_t at = 0; at < cloud.size(); at += chunk) {
         const FusionResult result =
             fusion.add(part(cloud, at, std::min(at + chunk, cloud.size())), pose(), time);
+        if (read && k % 3 == 0) fusion.map();
+        if (read && k % 3 == 1) fusion.map(result.changed);
         if (k >= still_scans - 50 && k < still_scans) tiles_written += result.changed.count();
       }
     }
@@ -136,6 +145,7 @@ TEST_F(FusionOrder, OfChunksOfQuickScansOfABedThatRestsAndMoves) {
   const HeightMap at_once = map(1500);
   EXPECT_LT(tiles_written, 50 * 4 / 2);
   expect_same_bits(at_once, map(200));
+  expect_same_bits(at_once, map(1500, /*read=*/true));
 
   double squares = 0;
   for (std::size_t i = 0; i < geometry.size(); ++i) {

@@ -170,6 +170,63 @@ TEST(FusionTracking, RestsAgainWhenTheBedStops) {
   EXPECT_LT(f.rmse, 0.0001);
 }
 
+/// How a map takes to a still bed at 10 Hz, whose noise is so many times what it was told.
+struct Rest {
+  double recognised = 0;  ///< when most tiles gather scans [s]
+  double told = 0;        ///< share of the tiles that are told of in a scan, in the second half
+  double rmse = 0;        ///< in the end [noise of a point / root of the points of a cell]
+};
+
+Rest rest(double points_per_cell, double noise_factor, int scans) {
+  const GridGeometry g(0, 0, 0.002, 96, 96);
+  FusionParameters p;
+  p.sensor.range_sigma = 0.0006;
+  const double sigma = noise_factor * p.sensor.range_sigma;
+  HeightFusion fusion(g, p);
+  const Eigen::Isometry3d pose = looking_down(0.096, 0.096, 50);
+  const auto points = static_cast<std::size_t>(points_per_cell * static_cast<double>(g.size()));
+  Rest result;
+  double told = 0;
+  for (int scan = 0; scan < scans; ++scan) {
+    RandomStream random(11, static_cast<std::uint64_t>(scan));
+    PointCloud cloud;
+    for (std::size_t i = 0; i < points; ++i)
+      cloud.push_back(static_cast<float>(0.192 * random.uniform() - 0.096),
+                      static_cast<float>(0.192 * random.uniform() - 0.096),
+                      static_cast<float>(sigma * random.normal()));
+    cloud.origin_z = 50;
+    const int tiles = fusion.add(cloud, pose, 0.1 * scan).changed.count();
+    if (result.recognised == 0 && tiles < 5) result.recognised = 0.1 * scan;
+    if (scan >= scans / 2) told += tiles / 9.0;
+  }
+  result.told = told / (scans - scans / 2);
+  double squared = 0;
+  for (const float height : fusion.map().layer(layer::elevation))
+    squared += static_cast<double>(height) * static_cast<double>(height);
+  result.rmse = std::sqrt(squared / static_cast<double>(g.size()) * points_per_cell * scans) / sigma;
+  testing::Test::RecordProperty("recognised_s", std::to_string(result.recognised));
+  return result;
+}
+
+TEST(FusionRest, IsRecognisedInSeconds) {
+  for (const double points_per_cell : {0.3, 1.0, 3.0}) {
+    const Rest found = rest(points_per_cell, 1, 200);
+    EXPECT_GT(found.recognised, 0) << points_per_cell;
+    EXPECT_LT(found.recognised, 8) << points_per_cell;
+    EXPECT_LT(found.told, 0.3) << points_per_cell;
+    EXPECT_NEAR(found.rmse, 1, 0.1) << points_per_cell;
+  }
+}
+
+// Had a tile been taken to move once, its cells would have begun anew and their error would be larger.
+TEST(FusionRest, LastsWhenTheNoiseIsNotAsTold) {
+  for (const double noise : {0.8, 1.2, 1.4}) {
+    const Rest found = rest(3, noise, 200);
+    EXPECT_LT(found.told, 0.3) << noise;
+    EXPECT_NEAR(found.rmse, 1, 0.1) << noise;
+  }
+}
+
 // Five times slower than the filter was told; some tiles pass for still between two looks.
 TEST(FusionTracking, FollowsSlowRipplesToo) {
   Scene run;
