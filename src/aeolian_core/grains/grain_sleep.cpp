@@ -85,15 +85,9 @@ void GrainDynamics<Dim>::Engine::wake(const std::vector<int>& slots) {
     change_expected(*pair, 1);
   }
   resting_.erase(still_resting, resting_.end());
+  // They start from rest: what has pushed them was thrown back with all its energy.
   for (const int slot : slots) {
-    // It takes on what it was pushed meanwhile.
-    const auto s = static_cast<std::size_t>(slot);
-    double* const value = records_[s].value;
-    Sleeper& sleeper = sleepers_[s];
-    for (int d = 0; d < Dim; ++d)
-      value[Record::velocity + d] = sleeper.owed.value[d] * value[Record::inverse_mass];
-    for (int d = 0; d < Record::turns; ++d)
-      value[Record::spin + d] = sleeper.owed.value[Load::torque + d] * value[Record::inverse_inertia];
+    Sleeper& sleeper = sleepers_[static_cast<std::size_t>(slot)];
     sleeper.owed = sleeper.expected = Load();
   }
   std::inplace_merge(pairs.begin(), pairs.begin() + middle, pairs.end());
