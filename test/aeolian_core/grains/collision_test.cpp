@@ -64,7 +64,7 @@ template <int Dim>
 void expect_analytic_collision() {
   const ContactLaw law = law_of_table_2_1();
   const double speed = 1;
-  GrainDynamics<Dim> grains = about_to_meet<Dim>(law, 5000, speed * Vector<Dim>::Unit(0), speed * delay);
+  GrainDynamics<Dim> grains = about_to_meet<Dim>(law, 4000, speed * Vector<Dim>::Unit(0), speed * delay);
   const double mass = grains.mass(0) / 2;
   const double decay = law.damping / 2, frequency = std::sqrt(law.stiffness / mass - decay * decay);
   const double part = 0.3 * M_PI / frequency;
