@@ -32,6 +32,18 @@ AEOLIAN_INLINE void twist(const Real* normal, const Real* shear, Real* torque) {
   }
 }
 
+/// From the second to the nearest image of the first.
+template <int Dim, class Real>
+AEOLIAN_INLINE void apart_within_period(const Real* first, const Real* second, const double* period,
+                                        Real* apart) {
+  for (int d = 0; d < Dim; ++d) {
+    const Real direct = first[GrainRecord<Dim>::place + d] - second[GrainRecord<Dim>::place + d];
+    const double half = period[d] / 2;
+    const Real once = direct > half ? direct - period[d] : direct;
+    apart[d] = once < -half ? once + period[d] : once;
+  }
+}
+
 /// Two grains, given by the numbers of their records. Velocities in the records are those half a step ago;
 /// those of now are predicted with the last acceleration. The lever arms end at the middle of the overlap, so
 /// that angular momentum is conserved.
@@ -44,12 +56,7 @@ struct PairMeeting {
 
   /// Where the two are; `touching()` and the rest follow.
   AEOLIAN_INLINE void place(const Real* first, const Real* second, const double* period) {
-    for (int d = 0; d < Dim; ++d) {
-      Real apart = first[Record::place + d] - second[Record::place + d];
-      const double half = period[d] / 2;
-      apart = apart > half ? apart - period[d] : apart;
-      meeting.normal[d] = apart < -half ? apart + period[d] : apart;
-    }
+    apart_within_period<Dim>(first, second, period, meeting.normal);
     distance = square_root(dot<Dim>(meeting.normal, meeting.normal));
     meeting.overlap = first[Record::radius] + second[Record::radius] - distance;
     smaller_radius = smaller(first[Record::radius], second[Record::radius]);
