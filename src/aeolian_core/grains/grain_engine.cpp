@@ -51,10 +51,11 @@ void GrainDynamics<Dim>::Engine::set_world(const GrainWorld<Dim>& world) {
   require_valid(world);
   for (const int grain : numbers_)
     require_valid_grain<Dim>(world, position(grain), radius(grain), Vector<Dim>::Zero(), Spin<Dim>::Zero());
-  if (world.period != world_.period || world.density != world_.density || world.thickness != world_.thickness)
-    sort_again_ = true;
   if (world.walls.size() != world_.walls.size()) wall_contacts_.clear();
-  if (world.period != world_.period) near_ = NearList<Dim>(infinite_where_none<Dim>(world.period));
+  if (world.period != world_.period) {
+    near_ = NearList<Dim>(infinite_where_none<Dim>(world.period));
+    sort_again_ = true;
+  }
   world_ = world;
   law_ = LawConstants(world.law);
   for (const int grain : numbers_) set_mass(records_[slot_of(grain)]);
