@@ -37,7 +37,10 @@ struct Wall<3> {
   Vector<3> velocity = Vector<3>::Zero();
 };
 
-/// When a grain counts as resting and is left out of the work until something wakes it.
+/// When a grain counts as resting and is left out of the work until something wakes it: being moved, losing a
+/// neighbour, or an impulse of its awake neighbours, beyond what it bore when it fell asleep, that would set
+/// it in motion at `speed`. What a sleeper fails to answer is at most its mass times that speed; results
+/// converge to those without sleep as it falls. A grain in the air or beside a moving wall does not sleep.
 struct SleepRule {
   /// Below this speed, and this speed over a radius of turning, for `patience` [m/s]; zero: none ever sleeps.
   double speed = 0;
@@ -51,10 +54,11 @@ struct GrainWorld {
   double density = 2000;                                          ///< [kg/m^3]
   double thickness = 0.01;                                        ///< of discs [m]; spheres have none
   Vector<Dim> acceleration = -9.81 * Vector<Dim>::Unit(Dim - 1);  ///< of gravity [m/s^2]
-  std::vector<Wall<Dim>> walls;
-  /// After what length a side begins anew [m], zero: it does not. Positions lie from zero to the length.
+  std::vector<Wall<Dim>> walls;                                   ///< not repeated across a period
+  /// After what length a side begins anew [m], zero: it does not. Positions lie from zero to the length,
+  /// which is at least eight times the largest radius.
   Vector<Dim> period = Vector<Dim>::Zero();
-  double steps_per_contact = 36;  ///< of the shortest contact
+  double steps_per_contact = 36;  ///< of the shortest contact; 8 or more
   double drag = 0;                ///< slows all motion, for settling beds [1/s]
   SleepRule sleep;
 };
@@ -93,7 +97,7 @@ class GrainDynamics {
   GrainDynamics(GrainDynamics&&) noexcept;
   GrainDynamics& operator=(GrainDynamics&&) noexcept;
 
-  const GrainWorld<Dim>& world() const;
+  const GrainWorld<Dim>& world() const;  ///< with the walls where they have moved
   /// Other rules from now on, for the same grains: another drag, sleep or law. Throws as the constructor
   /// does.
   void set_world(const GrainWorld<Dim>& world);
@@ -118,7 +122,7 @@ class GrainDynamics {
 
   double time() const;  ///< [s]
   /// One step, at most so long [s]; returns how long it was. Throws Error, and leaves all as it was, when two
-  /// grains overlap so much that no step can part them (by more than half of the smaller radius).
+  /// grains overlap so much that no step can part them (by more than the smaller radius).
   double step(double most = std::numeric_limits<double>::infinity());
   /// Steps until `duration` [s] later.
   void advance(double duration);

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "aeolian_core/measure/kernel.hpp"
 #include "aeolian_core/measure/transposition.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 namespace {
