@@ -115,7 +115,7 @@ bool Approach::settled(double tolerance) const {
 }
 
 SteadyState Approach::state() const {
-  SteadyState s(next_wind_);
+  SteadyState s(wind_);
   s.friction_velocity = free_;
   s.surface_friction_velocity = surface_;
   s.launches = launches_;
