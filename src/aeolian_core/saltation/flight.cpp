@@ -162,6 +162,7 @@ template <class Recorder>
 void fly_all(const Launches& launches, double least, const FlightConditions& c, Recorder& recorder) {
   const Field field{c.wind.view(), c.drag.view(), 1 / c.wind.roughness(), c.gravity};
   const double ground = c.wind.roughness();
+  const double slow = 20 * std::sqrt(c.gravity * ground);
   Abreast s{};
   std::array<std::ptrdiff_t, lanes> flying;
   std::array<int, lanes> steps{};
@@ -179,7 +180,7 @@ void fly_all(const Launches& launches, double least, const FlightConditions& c, 
     s.vy[lane] = vy;
     field.accelerate(ground, vx, vy, s.ax[lane], s.ay[lane]);
     s.step[lane] = more ? 0.02 * vy / c.gravity : 0;
-    s.inverse_scale[lane] = 1 / (c.tolerance * std::hypot(vx, vy));
+    s.inverse_scale[lane] = 1 / (c.tolerance * std::max(std::hypot(vx, vy), slow));
     steps[lane] = 0;
     flying[lane] = more ? static_cast<std::ptrdiff_t>(next) : -1;
     if (more) {

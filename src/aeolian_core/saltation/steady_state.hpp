@@ -72,7 +72,7 @@ struct SolverSettings {
 /// the number of grains follows from the momentum that the wind has to spare (saltation specification, sec.
 /// 3.2).
 ///
-///     SaltationSolver solver(bed, WernerSplash(WernerSplashConstants::thesis_case(1)));
+///     SaltationSolver solver(bed, DistributionKernel(DistributionSplash::thesis_case(1)));
 ///     SteadyState weak = solver.solve(0.4);
 ///     SteadyState strong = solver.solve(0.5, &weak);  // begins where weak has ended
 class SaltationSolver {

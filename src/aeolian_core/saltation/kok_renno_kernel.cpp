@@ -1,4 +1,4 @@
-#include "aeolian_core/saltation/kok_renno_splash.hpp"
+#include "aeolian_core/saltation/kok_renno_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double exponential_between(double low, double high, double mean) {
 
 }  // namespace
 
-KokRennoSplash::KokRennoSplash(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants,
+KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants,
                                int speeds_per_octave, int angles)
     : c_(constants),
       scale_(std::sqrt(atmosphere.gravity * grain.diameter)),
@@ -57,7 +57,7 @@ KokRennoSplash::KokRennoSplash(const Grain& grain, const Atmosphere& atmosphere,
   set_bins(static_cast<std::size_t>(std::ceil(speeds_per_octave * std::log2(100 / c.slowest))));
 }
 
-void KokRennoSplash::set_bins(std::size_t bins) {
+void KokRennoKernel::set_bins(std::size_t bins) {
   bins_ = bins;
   edge_.resize(bins + 1);
   for (std::size_t i = 0; i <= bins; ++i)
@@ -112,7 +112,7 @@ void KokRennoSplash::set_bins(std::size_t bins) {
   }
 }
 
-std::vector<double> KokRennoSplash::first_spectrum() const {
+std::vector<double> KokRennoKernel::first_spectrum() const {
   std::vector<double> spectrum(2 * bins_);
   for (std::size_t i = 0; i < bins_; ++i)
     spectrum[i] = spectrum[bins_ + i] = exponential_between(edge_[i], edge_[i + 1], 10 * scale_);
@@ -121,7 +121,7 @@ std::vector<double> KokRennoSplash::first_spectrum() const {
   return spectrum;
 }
 
-void KokRennoSplash::launch(const std::vector<double>& spectrum, Launches& launches) const {
+void KokRennoKernel::launch(const std::vector<double>& spectrum, Launches& launches) const {
   launches.vx = classes_.vx;
   launches.vy = classes_.vy;
   launches.number.resize(classes_.size());
@@ -130,7 +130,7 @@ void KokRennoSplash::launch(const std::vector<double>& spectrum, Launches& launc
       launches.number[k] = spectrum[i] * rebound_part_[k] + spectrum[bins_ + i] * ejecta_part_[k];
 }
 
-void KokRennoSplash::splash(const Launches& launches, double least, const Landings& landings,
+void KokRennoKernel::splash(const Launches& launches, double least, const Landings& landings,
                             std::vector<double>& spectrum) const {
   std::vector<double> impacts(knots_);
   for (std::size_t k = 0; k < launches.size(); ++k) {
@@ -148,15 +148,15 @@ void KokRennoSplash::splash(const Launches& launches, double least, const Landin
       for (std::size_t i = 0; i < 2 * bins_; ++i) spectrum[i] += impacts[n] * table_[n * 2 * bins_ + i];
 }
 
-double KokRennoSplash::number(const std::vector<double>& spectrum) const {
+double KokRennoKernel::number(const std::vector<double>& spectrum) const {
   return std::accumulate(spectrum.begin(), spectrum.end(), 0.0);
 }
 
-double KokRennoSplash::cut_off(const std::vector<double>& spectrum) const {
+double KokRennoKernel::cut_off(const std::vector<double>& spectrum) const {
   return std::max(spectrum[bins_ - 1], spectrum[2 * bins_ - 1]) / *std::max_element(spectrum.begin(), spectrum.end());
 }
 
-bool KokRennoSplash::extend(std::vector<double>& spectrum) {
+bool KokRennoKernel::extend(std::vector<double>& spectrum) {
   const std::size_t old = bins_;
   if (edge_.back() * 1.5 > fastest_launch) return false;
   set_bins(old + static_cast<std::size_t>(speeds_per_octave_));
@@ -165,7 +165,7 @@ bool KokRennoSplash::extend(std::vector<double>& spectrum) {
   return true;
 }
 
-double KokRennoSplash::rebound_share(const std::vector<double>& spectrum) const {
+double KokRennoKernel::rebound_share(const std::vector<double>& spectrum) const {
   return std::accumulate(spectrum.begin(), spectrum.begin() + static_cast<std::ptrdiff_t>(bins_), 0.0) /
          number(spectrum);
 }

@@ -18,20 +18,22 @@ struct KokRennoConstants {
   double ejecta_momentum = 0.141;     ///< b, of the impact's: mean speed b / a sqrt(g d); (1 - 0.648) / 2.5
   double ejecta_onset = 40;           ///< that mean times 1 - exp(-v / (40 sqrt(g d))); zero: always full
   double ejecta_angle = 0.873;        ///< mean, exponential, 50 degrees [rad]
-  double steepest = M_PI_2;           ///< angles end here; up to pi grains leave backwards, too [rad]
+  /// Angles end here [rad]. Up to pi, as COMSALT draws them, grains leave backwards, too, and impacts come at
+  /// 17 rather than 14 degrees.
+  double steepest = M_PI_2;
   double slowest = 0.14;              ///< launches are counted from this speed on, over sqrt(g d)
 };
 
-/// Kok & Renno's splash without its rejection of single impacts that break conservation: two spectra of
+/// Kok & Renno's splash (KokRennoRebound, KokRennoEjection) without its rejection of single impacts that break conservation: two spectra of
 /// speed, of rebounds and of ejecta, each with its distribution of angles. The numbers that leave depend on
 /// the impact's speed alone.
-class KokRennoSplash : public SplashKernel {
+class KokRennoKernel : public SplashKernel {
  public:
   /// `grain` and gravity set the scale sqrt(g d). Throws Error naming a constant that is not physical.
-  KokRennoSplash(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants = {}, int speeds_per_octave = 4,
+  KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants = {}, int speeds_per_octave = 4,
                  int angles = 14);
 
-  std::unique_ptr<SplashKernel> clone() const override { return std::make_unique<KokRennoSplash>(*this); }
+  std::unique_ptr<SplashKernel> clone() const override { return std::make_unique<KokRennoKernel>(*this); }
   std::string name() const override { return "kok_renno"; }
   std::vector<double> first_spectrum() const override;
   void launch(const std::vector<double>& spectrum, Launches& launches) const override;
