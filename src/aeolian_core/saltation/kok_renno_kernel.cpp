@@ -54,7 +54,7 @@ KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere,
   if (speeds_per_octave < 1 || speeds_per_octave > 32 || angles < 2 || angles > 256)
     throw Error("Kok & Renno's splash: bins of speed and angle are " + std::to_string(speeds_per_octave) + " and " +
                 std::to_string(angles) + ", must be 1 to 32 in an octave and 2 to 256");
-  set_bins(static_cast<std::size_t>(std::ceil(speeds_per_octave * std::log2(100 / c.slowest))));
+  set_bins(static_cast<std::size_t>(std::ceil(speeds_per_octave * std::log2(200 / c.slowest))));
 }
 
 void KokRennoKernel::set_bins(std::size_t bins) {
