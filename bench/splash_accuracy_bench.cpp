@@ -7,10 +7,17 @@
 
 int main() {
   aeolian::AccuracyTable table;
+  aeolian::rebound_rows(table);
+  aeolian::experiment_rows(table);
+  aeolian::literature_rows(table);
+  aeolian::table_rows(table);
   fmt::print(
       "# Accuracy of the splash\n\nPrinted by `./twin bench splash_accuracy`. Targets are those of Werner "
       "(1987) and of the "
       "literature; where a figure was drawn at random, the statistical error is one standard error of "
-      "ours.\n\n{}",
+      "ours.\n\n"
+      "![All splash functions](splash_functions.png)\n\nFine sand of 0.25 mm, by `./twin bench splash_figure "
+      "| gnuplot > "
+      "docs/accuracy/splash_functions.png`.\n\n{}",
       table.markdown());
 }

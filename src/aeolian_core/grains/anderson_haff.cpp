@@ -9,8 +9,8 @@ namespace aeolian {
 
 std::optional<LeavingGrain> AndersonHaffRebound::sample(const Impact& impact, RandomStream& random) const {
   if (random.uniform() > 0.95 * (1 - std::exp(-2 * impact.speed))) return std::nullopt;
-  double ratio = 0.56 + 0.2 * random.normal();
-  while (ratio <= 0 || ratio >= 1) ratio = 0.56 + 0.2 * random.normal();
+  double ratio = 0.56 + 0.2 * draw_normal(random);
+  while (ratio <= 0 || ratio >= 1) ratio = 0.56 + 0.2 * draw_normal(random);
   LeavingGrain grain =
       ejected(BedView(impact), ratio * impact.speed, draw_elevation(mean_rebound_elevation, random));
   grain.size_ratio = impact.size_ratio;

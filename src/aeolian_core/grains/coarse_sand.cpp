@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "aeolian_core/grains/bed_view.hpp"
+#include "aeolian_core/grains/unit_vector.hpp"
 
 namespace aeolian {
 namespace {
@@ -21,10 +22,11 @@ std::optional<LeavingGrain> CoarseSandRebound::sample(const Impact& impact, Rand
   const BedView bed(impact);
   const CoarseSandSettings::Place place = settings.choose(impact.speed / unit_, bed.angle(), random);
   const CoarseSandSettings::Node& node = settings.node(place.node);
+  const Eigen::Vector2d path = unit_vector(bed.angle());
   constexpr int tries = 16;
   for (int i = 0; i < tries; ++i) {
-    const double along = node.along.draw(random) * std::cos(bed.angle());
-    const double away = place.slope_factor * node.upward.draw(random) * std::sin(bed.angle());
+    const double along = node.along.draw(random) * path.x();
+    const double away = place.slope_factor * node.upward.draw(random) * path.y();
     if (along * along + away * away > 1) continue;
     if (away <= 0) break;
     return LeavingGrain{bed.velocity(impact.speed * along, impact.speed * away), impact.size_ratio, 0,
@@ -51,7 +53,9 @@ void CoarseSandEjection::sample(const Impact& impact, RandomStream& random,
   if (factor != 1) count = draw_rounded(factor * count, random);
   for (int i = 0; i < count; ++i) {
     const auto [away, direction] = node.draw_ejectum(random);
-    ejecta.push_back({bed.velocity(unit_ * away * std::tan(direction), unit_ * away), 1, 0, Origin::other});
+    const Eigen::Vector2d along_away = unit_vector(M_PI / 2 - direction);
+    ejecta.push_back(
+        {bed.velocity(unit_ * away * along_away.x() / along_away.y(), unit_ * away), 1, 0, Origin::other});
   }
 }
 

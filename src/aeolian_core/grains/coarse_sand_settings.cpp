@@ -139,8 +139,9 @@ CoarseSandSettings::CoarseSandSettings()
 CoarseSandSettings::Node::Ejectum CoarseSandSettings::Node::draw_ejectum(RandomStream& random) const {
   const double rest = std::sqrt(1 - correlation * correlation);
   for (;;) {
-    const double z = random.normal();
-    const double angle = direction.middle() + direction.width() * (correlation * z + rest * random.normal());
+    const double z = draw_normal(random);
+    const double angle =
+        direction.middle() + direction.width() * (correlation * z + rest * draw_normal(random));
     if (std::abs(angle) <= widest_direction) return {ejecta_up.at(z), angle};
   }
 }

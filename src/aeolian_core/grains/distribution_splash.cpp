@@ -68,7 +68,7 @@ void DistributionSplash::draw_once(const Impact& impact, RandomStream& random, S
   event.ejecta.clear();
   const int rebounds = p.c1 > 0 ? draw_rounded(p.c1 * along / (along + p.c5), random) : 0;
   for (int i = 0; i < rebounds; ++i) {
-    const double away = p.conversion * along + p.restitution * down + p.c2 * random.normal();
+    const double away = p.conversion * along + p.restitution * down + p.c2 * draw_normal(random);
     if (away <= 0) continue;
     if (!event.rebound)
       event.rebound = LeavingGrain{bed.velocity(leaves_along, away), impact.size_ratio, 0, Origin::rebound};

@@ -1,6 +1,7 @@
 #include "aeolian_core/grains/draws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -12,7 +13,47 @@ namespace {
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
 double below(double z) { return std::erfc(-z / M_SQRT2) / 2; }
 
+/// Layers of equal area under exp(-x^2 / 2): from x[i + 1] to x[i], the lowest with the tail.
+struct Ziggurat {
+  static constexpr unsigned layers = 128;
+  static constexpr double tail = 3.442619855899;       // where it begins
+  static constexpr double area = 9.91256303526217e-3;  // of a layer
+  std::array<double, layers + 1> x;
+  std::array<double, layers> inside;  ///< x[i + 1] / x[i]
+
+  Ziggurat() {
+    double height = std::exp(-tail * tail / 2);
+    x[0] = area / height;
+    x[1] = tail;
+    x[layers] = 0;
+    for (unsigned i = 2; i < layers; ++i) {
+      x[i] = std::sqrt(-2 * std::log(area / x[i - 1] + height));
+      height = std::exp(-x[i] * x[i] / 2);
+    }
+    for (unsigned i = 0; i < layers; ++i) inside[i] = x[i + 1] / x[i];
+  }
+};
+const Ziggurat ziggurat;
+
 }  // namespace
+
+double draw_normal(RandomStream& random) {
+  for (;;) {
+    const double u = 2 * random.uniform() - 1;
+    const unsigned layer = random.bits() % Ziggurat::layers;
+    const double x = u * ziggurat.x[layer];
+    if (std::abs(u) < ziggurat.inside[layer]) return x;
+    if (layer == 0) {
+      for (;;) {
+        const double beyond = random.exponential() / Ziggurat::tail;
+        if (2 * random.exponential() > beyond * beyond) return std::copysign(Ziggurat::tail + beyond, u);
+      }
+    }
+    const double outer = std::exp((x * x - ziggurat.x[layer] * ziggurat.x[layer]) / 2);
+    const double inner = std::exp((x * x - ziggurat.x[layer + 1] * ziggurat.x[layer + 1]) / 2);
+    if (inner + random.uniform() * (outer - inner) < 1) return x;
+  }
+}
 
 int draw_poisson(double mean, RandomStream& random) {
   constexpr double largest = 30;  // of one inversion: the sum of two such numbers is such a number
@@ -56,7 +97,7 @@ TruncatedNormal::TruncatedNormal(double mean, double deviation, double low, doub
 
 double TruncatedNormal::draw(RandomStream& random) const {
   for (;;) {
-    const double value = middle_ + width_ * random.normal();
+    const double value = middle_ + width_ * draw_normal(random);
     if (value >= low_ && value <= high_) return value;
   }
 }
@@ -94,7 +135,7 @@ int CountDistribution::draw(RandomStream& random) const {
 double draw_normal_above(double low, RandomStream& random) {
   if (low <= 0) {
     for (;;) {
-      const double z = random.normal();
+      const double z = draw_normal(random);
       if (z > low) return z;
     }
   }

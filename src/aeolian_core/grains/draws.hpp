@@ -6,6 +6,10 @@
 
 namespace aeolian {
 
+/// Standard normal: Marsaglia and Tsang's ziggurat with 128 layers as Doornik (2005) improved it. Four times
+/// as fast as RandomStream::normal().
+double draw_normal(RandomStream& random);
+
 /// A whole number whose mean is `mean` and whose variance is the same.
 int draw_poisson(double mean, RandomStream& random);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "aeolian_core/grains/unit_vector.hpp"
+
 namespace aeolian {
 
 double draw_elevation(double mean, RandomStream& random) {
@@ -10,7 +12,8 @@ double draw_elevation(double mean, RandomStream& random) {
 }
 
 LeavingGrain ejected(const BedView& bed, double speed, double elevation) {
-  return {bed.velocity(speed * std::cos(elevation), speed * std::sin(elevation)), 1, 0, Origin::other};
+  const Eigen::Vector2d direction = unit_vector(elevation);
+  return {bed.velocity(speed * direction.x(), speed * direction.y()), 1, 0, Origin::other};
 }
 
 }  // namespace aeolian

@@ -10,7 +10,7 @@ namespace aeolian {
 
 std::optional<LeavingGrain> KokRennoRebound::sample(const Impact& impact, RandomStream& random) const {
   if (random.uniform() > 0.96 * (1 - std::exp(-impact.speed))) return std::nullopt;
-  const double energy = std::clamp(0.45 + 0.22 * random.normal(), 0.01, 0.999);
+  const double energy = std::clamp(0.45 + 0.22 * draw_normal(random), 0.01, 0.999);
   LeavingGrain grain = ejected(BedView(impact), impact.speed * std::sqrt(energy),
                                draw_elevation(mean_rebound_elevation, random));
   grain.size_ratio = impact.size_ratio;

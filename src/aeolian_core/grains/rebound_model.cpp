@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "aeolian_core/grains/bed_view.hpp"
+#include "aeolian_core/grains/unit_vector.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -85,8 +86,9 @@ TwoBodyRebound ReboundModel::collision(double size_ratio) const {
 ReboundModel::Bounce ReboundModel::bounce(double angle, double size_ratio, double offset) const {
   const double radius = 1 + size_ratio;
   const double pitch = 2 + parameters_.gap;
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
+  const Eigen::Vector2d direction = unit_vector(angle);
+  const double cosine = direction.x();
+  const double sine = direction.y();
   const double h = radius - (1 - offset) * pitch * sine;
   const Eigen::Vector2d path(cosine, -sine);
 
@@ -108,7 +110,7 @@ ReboundModel::Bounce ReboundModel::bounce(double angle, double size_ratio, doubl
   double spin = parameters_.spin;
   Eigen::Vector2d place = h * Eigen::Vector2d(sine, cosine) + first * path;
   const Eigen::Vector2d normal = (place - Eigen::Vector2d(target * pitch, 0)) / radius;
-  Bounce result{two_bodies.velocity_after(path, normal, spin), 1, false, std::atan2(-normal.x(), normal.y())};
+  Bounce result{two_bodies.velocity_after(path, normal, spin), 1, false, -normal.x()};
   const auto next_after = [&](int from, int& next) {
     double soonest = never;
     for (int k = from - 2; k <= from + 2; ++k) {
@@ -149,7 +151,7 @@ ReboundModel::Means ReboundModel::means(const Impact& impact, int rays) const {
     const Eigen::Vector3d velocity = bed.velocity(one.velocity.x(), one.velocity.y());
     sum.along += velocity.x() / std::cos(impact.angle);
     sum.upward += velocity.z() / std::sin(impact.angle);
-    sum.contact_angle += one.contact_angle;
+    sum.contact_angle += std::asin(one.upstream);
     sum.twice += one.collisions == 2 ? 1 : 0;
     if (one.captured) {
       sum.captured += 1;

@@ -38,8 +38,8 @@ class ReboundModel : public Rebound {
   struct Bounce {
     Eigen::Vector2d velocity;  ///< along the bed and away from it, over the speed of the impact
     int collisions;
-    bool captured;         ///< the velocity is then zero
-    double contact_angle;  ///< beta: of the first contact's normal from the bed's, positive upstream [rad]
+    bool captured;    ///< the velocity is then zero
+    double upstream;  ///< of the first contact's normal: the sine of beta
   };
   /// What one ray does. `angle` to the bed, 0 to pi / 2 [rad]; `offset` 0 to 1 across what one grain of the
   /// bed takes of the rays.
