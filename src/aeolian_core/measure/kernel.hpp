@@ -1,9 +1,0 @@
-#pragma once
-
-/// Marks a loop over plain arrays that is compiled twice and chosen at run time: with AVX2, and for the
-/// baseline. Without fused multiply-add, so that the bits are the same everywhere.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define AEOLIAN_KERNEL __attribute__((target_clones("avx2", "default")))
-#else
-#define AEOLIAN_KERNEL
-#endif
