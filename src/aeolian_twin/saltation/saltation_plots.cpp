@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,15 +22,18 @@ std::string colour_of(std::size_t wind, std::size_t winds) {
   return colours[std::size(colours) - std::min(winds, std::size(colours)) + wind % std::size(colours)];
 }
 
-/// Layers taken together so that a curve has not too many points; x are means over them, y their middles [cm].
-Curve against_height(const SaltationProfiles& p, const std::vector<double>& column, double unit, double layer) {
-  const auto together = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(layer / p.thickness)));
+/// Means over layers that grow with height as the spacing of the grains' summits does; y are their middles [cm].
+Curve against_height(const SaltationProfiles& p, const std::vector<double>& column, double unit) {
+  constexpr double growth = 1.4;
   Curve curve;
-  for (std::size_t i = 0; i + together <= column.size(); i += together) {
+  std::size_t begin = 0;
+  for (double border = 0.001; begin < column.size(); border *= growth) {
+    const auto end = std::min(column.size(), static_cast<std::size_t>(std::ceil(border / p.thickness)));
     double sum = 0;
-    for (std::size_t j = i; j < i + together; ++j) sum += column[j];
-    curve.x.push_back(sum / static_cast<double>(together) * unit);
-    curve.y.push_back(100 * (p.height[i] + 0.5 * static_cast<double>(together - 1) * p.thickness));
+    for (std::size_t i = begin; i < end; ++i) sum += column[i];
+    curve.x.push_back(sum / static_cast<double>(end - begin) * unit);
+    curve.y.push_back(100 * 0.5 * (p.height[begin] + p.height[end - 1]));
+    begin = end;
   }
   return curve;
 }
@@ -107,7 +111,6 @@ void plot_heights(const std::vector<const SolvedWind*>& winds, const std::string
   std::ostringstream script;
   double top = 0;
   for (const SolvedWind* wind : winds) top = std::max(top, layer_height(wind->profiles));
-  const double layer = top / 100;
   const struct {
     const char* name;
     const char* title;
@@ -119,7 +122,7 @@ void plot_heights(const std::vector<const SolvedWind*>& winds, const std::string
   for (std::size_t i = 0; i < winds.size(); ++i)
     for (const auto& panel : panels)
       write_data(script, fmt::format("{}{}", panel.name, i),
-                 against_height(winds[i]->profiles, winds[i]->profiles.*panel.column, panel.unit, layer));
+                 against_height(winds[i]->profiles, winds[i]->profiles.*panel.column, panel.unit));
   script << plot_style << "set grid x y\nset multiplot layout 1,3 title 'What flies at which height'\nset yrange [0:"
          << 100 * top << "]\nset xtics rotate by -35\n";
   for (const auto& panel : panels) {
@@ -136,26 +139,22 @@ void plot_heights(const std::vector<const SolvedWind*>& winds, const std::string
   plot_svg(script.str(), 1080, 480, path);
 }
 
-/// Grains per speed, of all with a speed between neighbouring ones of equal steps, over all.
-Curve speeds(const std::vector<double>& speed, const std::vector<double>& number, double most) {
-  constexpr std::size_t bins = 40;
-  std::vector<double> count(bins);
+/// The share of grains that are not faster than each speed, in per cent.
+Curve slower(const std::vector<double>& speed, const std::vector<double>& number) {
+  std::vector<std::pair<double, double>> grains;
   double all = 0;
   for (std::size_t k = 0; k < speed.size(); ++k) {
+    if (!(number[k] > 0)) continue;
+    grains.emplace_back(speed[k], number[k]);
     all += number[k];
-    // A class stands for the speeds about its own: spread over the nearest two.
-    const double at = std::abs(speed[k]) / most * bins - 0.5;
-    if (!(number[k] > 0) || at >= bins) continue;
-    const double low = std::max(0.0, std::floor(at));
-    const auto i = static_cast<std::size_t>(low);
-    const double part = std::clamp(at - low, 0.0, 1.0);
-    count[i] += (1 - part) * number[k];
-    if (i + 1 < bins) count[i + 1] += part * number[k];
   }
+  std::sort(grains.begin(), grains.end());
   Curve curve;
-  for (std::size_t i = 0; i < bins; ++i) {
-    curve.x.push_back((static_cast<double>(i) + 0.5) * most / bins);
-    curve.y.push_back(count[i] / all * bins / most);
+  double below = 0;
+  for (const auto& [v, n] : grains) {
+    curve.x.push_back(v);
+    curve.y.push_back(100 * (below + 0.5 * n) / all);
+    below += n;
   }
   return curve;
 }
@@ -174,11 +173,11 @@ void plot_launches(const std::vector<const SolvedWind*>& winds, const std::strin
     const SteadyState& s = winds[i]->state;
     std::vector<double> total(s.landings.vx.size());
     for (std::size_t k = 0; k < total.size(); ++k) total[k] = std::hypot(s.landings.vx[k], s.landings.vy[k]);
-    write_data(script, fmt::format("up{}", i), speeds(s.launches.vy, s.launches.number, up));
-    write_data(script, fmt::format("impact{}", i), speeds(total, s.launches.number, impact));
+    write_data(script, fmt::format("up{}", i), slower(s.launches.vy, s.launches.number));
+    write_data(script, fmt::format("impact{}", i), slower(total, s.launches.number));
   }
   script << plot_style << "set grid x y\nset multiplot layout 1,2 title 'Grains that leave the bed and grains that land'\n"
-         << "set ylabel 'share of grains per m/s'\nset yrange [0:*]\n";
+         << "set ylabel 'grains that are slower [%]'\nset yrange [0:100]\nset key bottom right\n";
   for (const char* name : {"up", "impact"}) {
     const bool leaving = name[0] == 'u';
     script << "set xlabel '" << (leaving ? "upward speed at launch [m/s]" : "speed of impact [m/s]") << "'\nset xrange [0:"
@@ -222,7 +221,7 @@ void plot_gusts(const GustRun& g, const std::string& folder) {
   script << plot_style << "set multiplot layout 2,1\nset xrange [" << g.time.front() << ":" << g.time.back()
          << "]\nset yrange [0:*]\nset lmargin 9\nset ylabel 'friction velocity [m/s]'\nunset key\n"
          << "plot $wind with lines lw 1.5 lc rgb measured\n"
-         << "set key top right\nset xlabel 'time [s]'\nset ylabel 'mass flux [g m^{-1} s^{-1}]'\n"
+         << "set key outside top center horizontal\nset xlabel 'time [s]'\nset ylabel 'mass flux [g m^{-1} s^{-1}]'\n"
          << "plot $steady with lines lw 1 lc rgb baseline title 'in balance with each moment', "
          << "$relaxed with lines lw 2 lc rgb forecast title 'relaxing, with hysteresis'";
   if (!g.in_time.empty()) script << ", $solved with lines lw 2 lc rgb second title 'solved in time (eq. 4.35)'";
