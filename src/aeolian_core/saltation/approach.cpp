@@ -8,7 +8,7 @@ namespace {
 
 constexpr double negligible = 1e-7;       ///< classes below this part of all grains are not flown
 constexpr double cut_off_allowed = 1e-4;  ///< at the fast end, relative to the largest
-constexpr double counted = 1e-3;          ///< parts of a spectrum from here on must settle, relative to the largest
+constexpr double counted = 1e-3;  ///< parts of a spectrum from here on must settle, relative to the largest
 constexpr int memory = 5;
 
 /// Change of ln(surface wind) for the logarithm of the replacement: more grains leave than land, so more of
@@ -19,7 +19,8 @@ constexpr double surface_weight = 3;
 
 }  // namespace
 
-Approach::Approach(const SaltatingBed& bed, const SplashKernel& splash, const Drag& drag, double flight_tolerance)
+Approach::Approach(const SaltatingBed& bed, const SplashKernel& splash, const Drag& drag,
+                   double flight_tolerance)
     : bed_(bed),
       drag_(drag),
       flight_tolerance_(flight_tolerance),
@@ -27,6 +28,7 @@ Approach::Approach(const SaltatingBed& bed, const SplashKernel& splash, const Dr
       mixing_(memory),
       spectrum_(splash_->first_spectrum()),
       share_(WindProfile::levels),
+      next_share_(WindProfile::levels),
       wind_(bed.roughness_length()),
       next_wind_(wind_) {}
 
@@ -66,9 +68,9 @@ void Approach::step() {
     next_spectrum_ = spectrum_;
   }
 
-  next_share_ = share_;
-  if (stress_[0] > 0)
-    for (std::size_t i = 0; i < share_.size(); ++i) next_share_[i] = stress_[i] / stress_[0];
+  // Grains that push the wind on the whole came to be in too slow a wind: less of them.
+  for (std::size_t i = 0; i < share_.size(); ++i)
+    next_share_[i] = stress_[0] > 0 ? stress_[i] / stress_[0] : 0.5 * share_[i];
   next_wind_.set(free_, surface_, next_share_);
   wind_change_ = 0;
   for (std::size_t i = WindProfile::levels_per_octave; i < WindProfile::levels; ++i)
@@ -111,7 +113,8 @@ bool Approach::extend_if_cut_off() {
 }
 
 bool Approach::settled(double tolerance) const {
-  return std::abs(replacement_ - 1) < tolerance && spectrum_change_ < tolerance && wind_change_ < tolerance;
+  return stress_[0] > 0 && std::abs(replacement_ - 1) < tolerance && spectrum_change_ < tolerance &&
+         wind_change_ < tolerance;
 }
 
 SteadyState Approach::state() const {

@@ -4,9 +4,9 @@ namespace aeolian {
 
 /// The gas that the grains fly in, and what pulls them down.
 struct Atmosphere {
-  double density = 1.225;       ///< [kg/m^3]
-  double viscosity = 1.46e-5;   ///< kinematic [m^2/s]
-  double gravity = 9.81;        ///< [m/s^2]
+  double density = 1.225;      ///< [kg/m^3]
+  double viscosity = 1.46e-5;  ///< kinematic [m^2/s]
+  double gravity = 9.81;       ///< [m/s^2]
 
   static Atmosphere earth() { return {}; }
   static Atmosphere mars() { return {0.02, 6.5e-4, 3.71}; }

@@ -90,7 +90,8 @@ ConveyorResponse linear_response(const DeltaConveyor::Fixed& at, const Belt& bel
   const double time = (1 + eps) * gap;
   const double sum = (vc + v) * (vc + v);
   return {{{{-eps * f * v * v * vc / (time * sum), 0}, {0, 0}}},
-          {{{eps * f * v * v * v / (time * sum), -0.5 * eps * v * v / time}, {0, eps * v * at.state.flux / time}}}};
+          {{{eps * f * v * v * v / (time * sum), -0.5 * eps * v * v / time},
+            {0, eps * v * at.state.flux / time}}}};
 }
 
 SpectrumConveyor::SpectrumConveyor(const Belt& belt, const ConveyorSplash& splash, int bins, double width)
@@ -145,8 +146,8 @@ std::vector<double> SpectrumConveyor::next(const std::vector<double>& flux) cons
 }
 
 SpectrumConveyor::Steady SpectrumConveyor::iterate(std::vector<double> flux, double tolerance) const {
-  require(flux.size() == static_cast<std::size_t>(bins_), "number of fluxes", static_cast<double>(flux.size()),
-          "one for each bin");
+  require(flux.size() == static_cast<std::size_t>(bins_), "number of fluxes",
+          static_cast<double>(flux.size()), "one for each bin");
   for (int n = 1; n <= 10000; ++n) {
     const std::vector<double> after = next(flux);
     double change = 0;

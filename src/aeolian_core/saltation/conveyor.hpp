@@ -9,9 +9,9 @@ namespace aeolian {
 /// Grains that bounce between a bed and a belt that a given power drives: Werner's toy of saltation (1987,
 /// sec. 4.1), without dimensions. The belt stands for the wind.
 struct Belt {
-  double power = 1000;      ///< P_T, per area
-  double friction = 0;      ///< zeta: the belt itself takes zeta v_c^2
-  double restitution = 0.6; ///< eps, of bed and belt
+  double power = 1000;       ///< P_T, per area
+  double friction = 0;       ///< zeta: the belt itself takes zeta v_c^2
+  double restitution = 0.6;  ///< eps, of bed and belt
 };
 
 /// All grains leave the bed at one speed, straight up, (v_bix / v_girl)^2 for each that lands (eqs. 4.1-4.5).
@@ -35,8 +35,8 @@ class DeltaConveyor {
   double belt_speed(const State& state) const;
   /// Eq. 4.23.
   State next(const State& state) const;
-  /// Eqs. 4.3 and 4.5; throws Error where f <= 1 - eps^2, which has no steady state. The flux is zero where the
-  /// power cannot drive the belt so fast.
+  /// Eqs. 4.3 and 4.5; throws Error where f <= 1 - eps^2, which has no steady state. The flux is zero where
+  /// the power cannot drive the belt so fast.
   Fixed fixed_point() const;
   /// Of the map next() at a state, by differences: the real parts, or both real eigenvalues, larger first.
   std::array<double, 2> eigenvalues(const State& at) const;
@@ -52,10 +52,12 @@ class DeltaConveyor {
 struct ConveyorResponse {
   std::array<std::array<double, 2>, 2> a, b;
 };
-ConveyorResponse linear_response(const DeltaConveyor::Fixed& at, const Belt& belt, double conversion, double gap);
+ConveyorResponse linear_response(const DeltaConveyor::Fixed& at, const Belt& belt, double conversion,
+                                 double gap);
 
 /// Grains leave with a spectrum of speeds (eq. 4.12):
-///     S = alpha v_bix / (v_bix + e) exp(-(v_o - f v_bix + eps v_biy)^2 / beta) + gamma v_bix^2 exp(-v_o / delta)
+///     S = alpha v_bix / (v_bix + e) exp(-(v_o - f v_bix + eps v_biy)^2 / beta) + gamma v_bix^2 exp(-v_o /
+///     delta)
 struct ConveyorSplash {
   double conversion = 0.8;  ///< f
   double alpha = 1.6;

@@ -14,8 +14,8 @@ constexpr double fastest_launch = 50;  ///< no bed throws grains faster [m/s]
 
 void require(bool allowed, const char* parameter, double value, const char* range) {
   if (!allowed)
-    throw Error(std::string("distribution splash: ") + parameter + " is " + std::to_string(value) + ", must be " +
-                range);
+    throw Error(std::string("distribution splash: ") + parameter + " is " + std::to_string(value) +
+                ", must be " + range);
 }
 
 /// Cumulative normal distribution, from a table: good to 2e-6.
@@ -64,7 +64,8 @@ void DistributionKernel::set_bins(std::size_t bins) {
   for (std::size_t j = 0; j < bins; ++j) {
     const double low = std::max(slowest_, static_cast<double>(j) * width_);
     const double high = static_cast<double>(j + 1) * width_;
-    if (low < high && p_.c3 > 0) ejecta_[j] = p_.c3 * p_.c4 * (std::exp(-low / p_.c4) - std::exp(-high / p_.c4));
+    if (low < high && p_.c3 > 0)
+      ejecta_[j] = p_.c3 * p_.c4 * (std::exp(-low / p_.c4) - std::exp(-high / p_.c4));
   }
 }
 
@@ -89,7 +90,7 @@ void DistributionKernel::launch(const std::vector<double>& spectrum, Launches& l
 }
 
 void DistributionKernel::splash(const Launches& launches, double least, const Landings& landings,
-                          std::vector<double>& spectrum) const {
+                                std::vector<double>& spectrum) const {
   static const Normal normal;
   spectrum.assign(p_.c6 > 0 ? 2 * bins_ : bins_, 0);
   double ejecta = 0;

@@ -5,15 +5,14 @@
 
 namespace aeolian {
 
-/// DistributionSplash (Werner 1987, eq. 4.34, as printed) in bins of vertical launch speed, by exact integrals
-/// over each. With c6 > 0 a bin carries the mean v_ox of the impacts that
-/// feed it.
+/// DistributionSplash (Werner 1987, eq. 4.34, as printed) in bins of vertical launch speed, by exact
+/// integrals over each. With c6 > 0 a bin carries the mean v_ox of the impacts that feed it.
 class DistributionKernel : public SplashKernel {
  public:
   /// Bins of `width` from zero to `top` [m/s]; launches below `slowest` [m/s] stay in their pocket. Throws
   /// Error naming a parameter that is not physical.
-  explicit DistributionKernel(const DistributionSplash::Parameters& parameters, double width = 0.05, double top = 3,
-                        double slowest = 0);
+  explicit DistributionKernel(const DistributionSplash::Parameters& parameters, double width = 0.05,
+                              double top = 3, double slowest = 0);
 
   std::unique_ptr<SplashKernel> clone() const override { return std::make_unique<DistributionKernel>(*this); }
   std::string name() const override { return "werner"; }

@@ -10,7 +10,8 @@ namespace {
 
 void require(bool allowed, const char* property, double value, const char* range) {
   if (!allowed)
-    throw Error(std::string("atmosphere: ") + property + " is " + std::to_string(value) + ", must be " + range);
+    throw Error(std::string("atmosphere: ") + property + " is " + std::to_string(value) + ", must be " +
+                range);
 }
 
 /// c_d Re, which stays finite in still air.

@@ -91,15 +91,15 @@ struct Parabola {
 
 /// Adds weight x velocity along the wind where a path crosses `count` heights.
 /// @{
-AEOLIAN_KERNEL void add_rising(const Parabola& path, const double* height, std::ptrdiff_t count, double weight,
-                               double* sum) {
+AEOLIAN_KERNEL void add_rising(const Parabola& path, const double* height, std::ptrdiff_t count,
+                               double weight, double* sum) {
   const Parabola p = path;
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i)
     sum[i] += weight * p.vx(2 * (height[i] - p.y0) / (p.vy0 + p.root(height[i])));
 }
-AEOLIAN_KERNEL void add_falling(const Parabola& path, const double* height, std::ptrdiff_t count, double weight,
-                                double* sum) {
+AEOLIAN_KERNEL void add_falling(const Parabola& path, const double* height, std::ptrdiff_t count,
+                                double weight, double* sum) {
   const Parabola p = path;
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -109,8 +109,7 @@ AEOLIAN_KERNEL void add_falling_past_apex(const Parabola& path, const double* he
                                           double weight, double* sum) {
   const Parabola p = path;
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-    sum[i] += weight * p.vx((p.vy0 + p.root(height[i])) / -p.bend);
+  for (std::ptrdiff_t i = 0; i < count; ++i) sum[i] += weight * p.vx((p.vy0 + p.root(height[i])) / -p.bend);
 }
 /// @}
 
@@ -195,7 +194,8 @@ void fly_all(const Launches& launches, double least, const FlightConditions& c, 
     for (std::size_t i = 0; i < lanes; ++i) {
       if (flying[i] < 0) continue;
       if (++steps[i] > most_steps)
-        throw Error("flight: a grain launched at " + std::to_string(launches.vy[static_cast<std::size_t>(flying[i])]) +
+        throw Error("flight: a grain launched at " +
+                    std::to_string(launches.vy[static_cast<std::size_t>(flying[i])]) +
                     " m/s does not come down within " + std::to_string(most_steps) + " steps");
       const double step = s.step[i];
       s.step[i] = step * std::min(5.0, std::max(0.2, 0.9 * inverse_sixth_root(s.error[i])));
@@ -263,9 +263,8 @@ class StressRecorder {
       add_rising(path, wind_.heights() + level + 1, static_cast<std::ptrdiff_t>(top - level), -number,
                  &stress_[level + 1]);
     if (top > end)
-      (path.vy0 > 0 ? add_falling_past_apex : add_falling)(path, wind_.heights() + end + 1,
-                                                           static_cast<std::ptrdiff_t>(top - end), number,
-                                                           &stress_[end + 1]);
+      (path.vy0 > 0 ? add_falling_past_apex : add_falling)(
+          path, wind_.heights() + end + 1, static_cast<std::ptrdiff_t>(top - end), number, &stress_[end + 1]);
     level_[lane] = end;
     landings_.apex[k] = std::max(landings_.apex[k], highest - wind_.roughness());
   }

@@ -40,8 +40,8 @@ struct FlightStep {
 struct FlightConditions {
   const WindProfile& wind;
   const Drag& drag;
-  double gravity = 9.81;     ///< [m/s^2]
-  double tolerance = 1e-4;   ///< of a step's velocity, over the launch's or 20 sqrt(g l) if that is more
+  double gravity = 9.81;    ///< [m/s^2]
+  double tolerance = 1e-4;  ///< of a step's velocity, over the launch's or 20 sqrt(g l) if that is more
 };
 
 /// Flies classes whose number is above `least` from the bed at the wind's roughness length until they are

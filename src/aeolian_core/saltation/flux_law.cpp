@@ -21,7 +21,8 @@ struct Line {
   double offset, slope;
 };
 
-Line line_through(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& weight) {
+Line line_through(const std::vector<double>& x, const std::vector<double>& y,
+                  const std::vector<double>& weight) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     n += weight[i];
@@ -37,7 +38,8 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y, co
 void require_points(const std::vector<double>& friction_velocity, const std::vector<double>& flux) {
   if (flux.size() < 2 || flux.size() != friction_velocity.size())
     throw Error("flux law: " + std::to_string(flux.size()) + " fluxes at " +
-                std::to_string(friction_velocity.size()) + " friction velocities, must be two or more of both");
+                std::to_string(friction_velocity.size()) +
+                " friction velocities, must be two or more of both");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace aeolian {
 /// sec. 8).
 class FluxResponse {
  public:
-  /// `start`: fluid threshold [m/s], not below the law's; `time`: T_sat [s], positive. Throws Error otherwise.
+  /// `start`: fluid threshold [m/s], not below the law's; `time`: T_sat [s], positive. Throws Error
+  /// otherwise.
   FluxResponse(const FluxLaw& law, double start, double time = 1.5);
 
   /// Lets this wind blow for `duration` [s], exactly; returns the flux at its end [kg m^-1 s^-1].
@@ -23,8 +24,8 @@ class FluxResponse {
   double flux_ = 0;
 };
 
-/// The length over which the flux adapts, about 2.2 d rho_s / rho [m], hardly dependent on the wind (Andreotti,
-/// Claudin & Pouliquen 2010).
+/// The length over which the flux adapts, about 2.2 d rho_s / rho [m], hardly dependent on the wind
+/// (Andreotti, Claudin & Pouliquen 2010).
 double saturation_length(const SaltatingBed& bed);
 
 /// Flux `fetch` [m] downwind of where grains begin to be taken up: Q_sat (1 - exp(-x / L_sat)).

@@ -15,8 +15,8 @@ constexpr double slowest_impact = 1.0 / 64;  ///< [m/s], below: in proportion
 
 void require(bool allowed, const char* constant, double value, const char* range) {
   if (!allowed)
-    throw Error(std::string("Kok & Renno's splash: ") + constant + " is " + std::to_string(value) + ", must be " +
-                range);
+    throw Error(std::string("Kok & Renno's splash: ") + constant + " is " + std::to_string(value) +
+                ", must be " + range);
 }
 
 double normal_below(double z) { return 0.5 * std::erfc(-z / M_SQRT2); }
@@ -28,8 +28,8 @@ double exponential_between(double low, double high, double mean) {
 
 }  // namespace
 
-KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants,
-                               int speeds_per_octave, int angles)
+KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere,
+                               const KokRennoConstants& constants, int speeds_per_octave, int angles)
     : c_(constants),
       scale_(std::sqrt(atmosphere.gravity * grain.diameter)),
       slowest_(constants.slowest * scale_),
@@ -38,22 +38,24 @@ KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere,
   check(grain);
   check(atmosphere);
   const auto& c = constants;
-  require(c.rebound_probability >= 0 && c.rebound_probability <= 1, "rebound probability", c.rebound_probability,
-          "0 to 1");
-  require(c.rebound_speed > 0 && c.rebound_speed <= 100, "rebound speed", c.rebound_speed, "above 0 to 100 m/s");
+  require(c.rebound_probability >= 0 && c.rebound_probability <= 1, "rebound probability",
+          c.rebound_probability, "0 to 1");
+  require(c.rebound_speed > 0 && c.rebound_speed <= 100, "rebound speed", c.rebound_speed,
+          "above 0 to 100 m/s");
   require(c.energy_kept > 0 && c.energy_kept < 1, "energy kept", c.energy_kept, "between 0 and 1");
   require(c.energy_spread > 0 && c.energy_spread < 1, "energy spread", c.energy_spread, "between 0 and 1");
   require(c.rebound_angle > 0 && c.rebound_angle <= M_PI, "rebound angle", c.rebound_angle, "above 0 to pi");
   require(c.ejecta_coefficient > 0 && c.ejecta_coefficient <= 1, "ejecta coefficient", c.ejecta_coefficient,
           "above 0 to 1");
-  require(c.ejecta_momentum > 0 && c.ejecta_momentum <= 1, "ejecta momentum", c.ejecta_momentum, "above 0 to 1");
+  require(c.ejecta_momentum > 0 && c.ejecta_momentum <= 1, "ejecta momentum", c.ejecta_momentum,
+          "above 0 to 1");
   require(c.ejecta_onset >= 0 && c.ejecta_onset <= 1e4, "ejecta onset", c.ejecta_onset, "0 to 10000");
   require(c.ejecta_angle > 0 && c.ejecta_angle <= M_PI, "ejecta angle", c.ejecta_angle, "above 0 to pi");
   require(c.steepest > 0.5 && c.steepest <= M_PI, "steepest angle", c.steepest, "0.5 to pi");
   require(c.slowest >= 0.01 && c.slowest <= 10, "slowest launch", c.slowest, "0.01 to 10 sqrt(g d)");
   if (speeds_per_octave < 1 || speeds_per_octave > 32 || angles < 2 || angles > 256)
-    throw Error("Kok & Renno's splash: bins of speed and angle are " + std::to_string(speeds_per_octave) + " and " +
-                std::to_string(angles) + ", must be 1 to 32 in an octave and 2 to 256");
+    throw Error("Kok & Renno's splash: bins of speed and angle are " + std::to_string(speeds_per_octave) +
+                " and " + std::to_string(angles) + ", must be 1 to 32 in an octave and 2 to 256");
   set_bins(static_cast<std::size_t>(std::ceil(speeds_per_octave * std::log2(200 / c.slowest))));
 }
 
@@ -88,7 +90,8 @@ void KokRennoKernel::set_bins(std::size_t bins) {
     }
   }
 
-  knots_ = static_cast<std::size_t>(knots_per_octave * std::ceil(std::log2(4 * edge_[bins] / slowest_impact)));
+  knots_ =
+      static_cast<std::size_t>(knots_per_octave * std::ceil(std::log2(4 * edge_[bins] / slowest_impact)));
   table_.assign(knots_ * 2 * bins, 0);
   const double least = 0.01, most = 0.999;
   for (std::size_t n = 0; n < knots_; ++n) {
@@ -153,7 +156,8 @@ double KokRennoKernel::number(const std::vector<double>& spectrum) const {
 }
 
 double KokRennoKernel::cut_off(const std::vector<double>& spectrum) const {
-  return std::max(spectrum[bins_ - 1], spectrum[2 * bins_ - 1]) / *std::max_element(spectrum.begin(), spectrum.end());
+  return std::max(spectrum[bins_ - 1], spectrum[2 * bins_ - 1]) /
+         *std::max_element(spectrum.begin(), spectrum.end());
 }
 
 bool KokRennoKernel::extend(std::vector<double>& spectrum) {

@@ -21,17 +21,17 @@ struct KokRennoConstants {
   /// Angles end here [rad]. Up to pi, as COMSALT draws them, grains leave backwards, too, and impacts come at
   /// 17 rather than 14 degrees.
   double steepest = M_PI_2;
-  double slowest = 0.14;              ///< launches are counted from this speed on, over sqrt(g d)
+  double slowest = 0.14;  ///< launches are counted from this speed on, over sqrt(g d)
 };
 
-/// Kok & Renno's splash (KokRennoRebound, KokRennoEjection) without its rejection of single impacts that break conservation: two spectra of
-/// speed, of rebounds and of ejecta, each with its distribution of angles. The numbers that leave depend on
-/// the impact's speed alone.
+/// Kok & Renno's splash (KokRennoRebound, KokRennoEjection) without its rejection of single impacts that
+/// break conservation: two spectra of speed, of rebounds and of ejecta, each with its distribution of angles.
+/// The numbers that leave depend on the impact's speed alone.
 class KokRennoKernel : public SplashKernel {
  public:
   /// `grain` and gravity set the scale sqrt(g d). Throws Error naming a constant that is not physical.
-  KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants = {}, int speeds_per_octave = 4,
-                 int angles = 14);
+  KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere, const KokRennoConstants& constants = {},
+                 int speeds_per_octave = 4, int angles = 14);
 
   std::unique_ptr<SplashKernel> clone() const override { return std::make_unique<KokRennoKernel>(*this); }
   std::string name() const override { return "kok_renno"; }
@@ -55,10 +55,10 @@ class KokRennoKernel : public SplashKernel {
   int speeds_per_octave_;
   std::size_t angles_;
   std::size_t bins_ = 0;
-  std::vector<double> edge_;        ///< of the bins of speed [m/s]
-  Launches classes_;                ///< velocities of all
-  std::vector<double> rebound_part_, ejecta_part_;    ///< of a bin in each angle, of those that escape
-  std::vector<double> table_;       ///< spectrum of one impact at each knot of speed
+  std::vector<double> edge_;                        ///< of the bins of speed [m/s]
+  Launches classes_;                                ///< velocities of all
+  std::vector<double> rebound_part_, ejecta_part_;  ///< of a bin in each angle, of those that escape
+  std::vector<double> table_;                       ///< spectrum of one impact at each knot of speed
   std::size_t knots_ = 0;
 };
 

@@ -16,8 +16,8 @@ constexpr double counted = 1e-3;
 
 }  // namespace
 
-SteadyState literal_iteration(const SaltatingBed& bed, const SplashKernel& splash, double free, double tolerance,
-                              int most_iterations) {
+SteadyState literal_iteration(const SaltatingBed& bed, const SplashKernel& splash, double free,
+                              double tolerance, int most_iterations) {
   check(bed);
   if (!(free > 0 && free <= 10))
     throw Error("saltation: friction velocity is " + std::to_string(free) + " m/s, must be above 0 to 10");
@@ -53,7 +53,8 @@ SteadyState literal_iteration(const SaltatingBed& bed, const SplashKernel& splas
       before[i] = state.wind.speed_at_level(i);
     }
     const double left = free * free - state.grain_stress[0] / bed.atmosphere.density;
-    state.surface_friction_velocity = std::min(free, std::sqrt(std::max(left, calmest * calmest * free * free)));
+    state.surface_friction_velocity =
+        std::min(free, std::sqrt(std::max(left, calmest * calmest * free * free)));
     for (std::size_t i = 0; i < share.size(); ++i)
       share[i] = state.grain_stress[0] > 0 ? state.grain_stress[i] / state.grain_stress[0] : 0;
     state.wind.set(free, state.surface_friction_velocity, share);
@@ -68,7 +69,8 @@ SteadyState literal_iteration(const SaltatingBed& bed, const SplashKernel& splas
     state.spectrum_change = 0;
     for (std::size_t i = 0; i < next.size(); ++i) {
       if (next[i] > counted * largest)
-        state.spectrum_change = std::max(state.spectrum_change, std::abs(next[i] - state.spectrum[i]) / next[i]);
+        state.spectrum_change =
+            std::max(state.spectrum_change, std::abs(next[i] - state.spectrum[i]) / next[i]);
       state.spectrum[i] += part * (next[i] - state.spectrum[i]);
     }
     if (state.spectrum_change < tolerance && state.wind_change < tolerance) {

@@ -48,7 +48,9 @@ double SaltationProfiles::mass_flux(double grain_mass) const {
   return grain_mass * thickness * std::accumulate(number_flux.begin(), number_flux.end(), 0.0);
 }
 
-double SaltationProfiles::stress() const { return thickness * std::accumulate(drag.begin(), drag.end(), 0.0); }
+double SaltationProfiles::stress() const {
+  return thickness * std::accumulate(drag.begin(), drag.end(), 0.0);
+}
 
 double SaltationProfiles::peak(const std::vector<double>& column, double layer) const {
   const auto together = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(layer / thickness)));

@@ -8,15 +8,15 @@ namespace aeolian {
 
 /// What flies at which height: means over layers of equal thickness, from the bed upwards.
 struct SaltationProfiles {
-  double thickness = 0;                 ///< of a layer [m]
-  std::vector<double> height;           ///< of the middle of a layer over the bed [m]
-  std::vector<double> number_density;   ///< [m^-3]
-  std::vector<double> number_flux;      ///< n v_x [m^-2 s^-1]
-  std::vector<double> cubed_flux;       ///< n v_x^3, which Werner's table 4.4 calls kinetic energy [s^-3]
-  std::vector<double> kinetic_flux;     ///< m n v_x |v|^2 / 2 [W m^-2]
-  std::vector<double> drag;             ///< of the grains on the air, against the wind [N m^-3]
-  std::vector<double> wind;             ///< [m/s]
-  std::vector<double> undisturbed_wind; ///< the same free wind without grains [m/s]
+  double thickness = 0;                  ///< of a layer [m]
+  std::vector<double> height;            ///< of the middle of a layer over the bed [m]
+  std::vector<double> number_density;    ///< [m^-3]
+  std::vector<double> number_flux;       ///< n v_x [m^-2 s^-1]
+  std::vector<double> cubed_flux;        ///< n v_x^3, which Werner's table 4.4 calls kinetic energy [s^-3]
+  std::vector<double> kinetic_flux;      ///< m n v_x |v|^2 / 2 [W m^-2]
+  std::vector<double> drag;              ///< of the grains on the air, against the wind [N m^-3]
+  std::vector<double> wind;              ///< [m/s]
+  std::vector<double> undisturbed_wind;  ///< the same free wind without grains [m/s]
 
   double mass_flux(double grain_mass) const;  ///< over all heights [kg m^-1 s^-1]
   double stress() const;                      ///< that the grains take from the wind [Pa]

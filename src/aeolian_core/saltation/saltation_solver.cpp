@@ -15,7 +15,8 @@ constexpr double calm = 1e-3;      ///< surface over free wind: nothing left for
 constexpr int thin_steps = 3;      ///< of a few grains that find the form of their spectrum
 constexpr double strongest = 10;   ///< [m/s]
 
-const char* const too_many = "more than one grain leaves for each that lands, however slow the wind at the bed is";
+const char* const too_many =
+    "more than one grain leaves for each that lands, however slow the wind at the bed is";
 const char* const too_fast = "grains leave the bed ever faster: the splash function gives more than it gets";
 const char* const too_few = "less than one grain leaves for each that lands";
 const char* const restless = "numbers of grains and wind do not settle";
@@ -53,19 +54,12 @@ void relax(Approach& approach, double tolerance) {
   }
 }
 
-SteadyState bisect(Approach& approach, double free, double tolerance) {
-  double low = calm * free;
-  double high = pinned * free;
-  for (int halving = 0; halving < 40 && high / low > 1 + 0.1 * tolerance; ++halving) {
-    const double middle = std::sqrt(low * high);
-    approach.set_winds(free, middle);
-    relax(approach, tolerance);
-    if (!approach.extend_if_cut_off()) return outcome(approach, Outcome::none, too_fast);
-    (approach.replacement() > 1 ? high : low) = middle;
-  }
-  if (low == calm * free) return outcome(approach, Outcome::none, too_many);
-  return approach.settled(10 * tolerance) ? outcome(approach, Outcome::steady)
-                                          : outcome(approach, Outcome::none, restless);
+/// Whether the grains of the last step, in the free wind down to the bed, are too few to keep up their
+/// number.
+bool dies_out(const Approach& approach, double tolerance) {
+  const double replacement = approach.replacement();
+  return replacement < 1 &&
+         (replacement < 0.5 || approach.spectrum_change() < std::max(tolerance, 1 - replacement));
 }
 
 }  // namespace
@@ -77,14 +71,60 @@ SaltationSolver::SaltationSolver(const SaltatingBed& bed, const SplashKernel& sp
       settings_(settings),
       drag_(bed.drag_law, bed.grain, bed.atmosphere, bed.drag_scale) {}
 
+SteadyState SaltationSolver::approach_from(double free, const SteadyState* begin) const {
+  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
+  const double most = pinned * free;
+  double surface = 0.8 * bed_.fluid_threshold();
+  if (begin) {
+    approach.take(*begin);
+    surface = begin->surface_friction_velocity;
+  } else {
+    for (int n = 0; n < thin_steps; ++n) surface = thin_step(approach, surface);
+  }
+  approach.set_winds(free, std::min(surface, most));
+  // In too weak a wind there is nothing to mix: a few grains are followed until they are seen to die out.
+  for (int n = 0; n < 40 && surface >= most; ++n) {
+    approach.step();
+    if (dies_out(approach, settings_.tolerance)) return outcome(approach, Outcome::below_threshold, too_few);
+    approach.accept();
+    if (approach.replacement() > 1) break;
+  }
+
+  for (int n = 0; n < settings_.most_iterations; ++n) {
+    approach.step();
+    if (approach.spectrum_change() < 0.1 && !approach.extend_if_cut_off())
+      return outcome(approach, Outcome::none, too_fast);
+    if (approach.settled(settings_.tolerance)) return outcome(approach, Outcome::steady);
+    if (approach.surface() >= most && dies_out(approach, settings_.tolerance))
+      return outcome(approach, Outcome::below_threshold, too_few);
+    if (approach.surface() < calm * free) return outcome(approach, Outcome::none, too_many);
+    approach.mix(most);
+  }
+  return outcome(approach, Outcome::none, restless);
+}
+
+SteadyState SaltationSolver::rise_to(double free, double threshold) const {
+  double wind = 1.1 * threshold;
+  SteadyState state = approach_from(wind, nullptr);
+  double growth = 1.3;
+  while (state.steady() && wind < free && growth > 1.02) {
+    const double next = std::min(free, growth * wind);
+    SteadyState stronger = approach_from(next, &state);
+    if (stronger.steady()) {
+      wind = next;
+      state = std::move(stronger);
+    } else {
+      growth = std::sqrt(growth);
+    }
+  }
+  return state;
+}
+
 SteadyState SaltationSolver::solve(double free, const SteadyState* begin) const {
   if (!(free >= 0 && free <= strongest))
     throw Error("saltation: friction velocity is " + std::to_string(free) + " m/s, must be 0 to " +
                 std::to_string(strongest));
-  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
-  const double most = pinned * free;
-  double surface = 0.8 * bed_.fluid_threshold();
-  if (free < 0.05 * surface) {
+  if (free < 0.05 * bed_.fluid_threshold() && !begin) {
     SteadyState still{WindProfile(bed_.roughness_length())};
     still.friction_velocity = still.surface_friction_velocity = free;
     still.wind.set_logarithmic(free);
@@ -95,26 +135,35 @@ SteadyState SaltationSolver::solve(double free, const SteadyState* begin) const 
     return still;
   }
   if (begin && begin->steady()) {
-    approach.take(*begin);
-    surface = begin->surface_friction_velocity;
-  } else {
-    for (int n = 0; n < thin_steps; ++n) surface = thin_step(approach, surface);
+    SteadyState state = approach_from(free, begin);
+    if (state.outcome != Outcome::none) return state;
   }
-  approach.set_winds(free, std::min(surface, most));
+  SteadyState state = approach_from(free, nullptr);
+  if (state.outcome != Outcome::none) return state;
+  const std::optional<double> threshold = impact_threshold();
+  if (!threshold) return state;
+  if (free > 1.1 * *threshold) {
+    SteadyState risen = rise_to(free, *threshold);
+    if (risen.steady() && risen.friction_velocity == free) return risen;
+  }
+  return bisect(free);
+}
 
-  for (int n = 0; n < settings_.most_iterations; ++n) {
-    approach.step();
-    const double replacement = approach.replacement();
-    if (approach.spectrum_change() < 0.1 && !approach.extend_if_cut_off())
-      return outcome(approach, Outcome::none, too_fast);
-    if (approach.settled(settings_.tolerance)) return outcome(approach, Outcome::steady);
-    if (approach.surface() >= most && replacement < 1 &&
-        (replacement < 0.5 || approach.spectrum_change() < std::max(settings_.tolerance, 1 - replacement)))
-      return outcome(approach, Outcome::below_threshold, too_few);
-    if (approach.surface() < calm * free) return outcome(approach, Outcome::none, too_many);
-    approach.mix(most);
+SteadyState SaltationSolver::bisect(double free) const {
+  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
+  const double tolerance = settings_.tolerance;
+  double low = calm * free;
+  double high = pinned * free;
+  for (int halving = 0; halving < 20 && high / low > 1 + 0.1 * tolerance; ++halving) {
+    const double middle = std::sqrt(low * high);
+    approach.set_winds(free, middle);
+    relax(approach, tolerance);
+    if (!approach.extend_if_cut_off()) return outcome(approach, Outcome::none, too_fast);
+    (approach.replacement() > 1 ? high : low) = middle;
   }
-  return bisect(approach, free, settings_.tolerance);
+  if (low == calm * free) return outcome(approach, Outcome::none, too_many);
+  return approach.settled(10 * tolerance) ? outcome(approach, Outcome::steady)
+                                          : outcome(approach, Outcome::none, restless);
 }
 
 std::optional<double> SaltationSolver::impact_threshold(std::string* why) const {

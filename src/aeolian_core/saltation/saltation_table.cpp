@@ -91,7 +91,8 @@ std::vector<double> SaltationTable::usual_ratios() {
 }
 
 SaltationTable SaltationTable::build(const SaltatingBed& bed, const Kernels& kernels,
-                                     const std::vector<double>& diameters, const std::vector<double>& ratios) {
+                                     const std::vector<double>& diameters,
+                                     const std::vector<double>& ratios) {
   require_ascending("diameter", diameters, 0);
   require_ascending("ratio", ratios, 1);
   SaltationTable table;
@@ -172,8 +173,7 @@ FluxLaw SaltationTable::law(double diameter) const {
   const FluxLaw& low = laws_[d.index];
   const FluxLaw& high = laws_[d.index + 1];
   const auto mix = [&](double a, double b) { return a + d.part * (b - a); };
-  const double threshold =
-      mix(threshold_[d.index], threshold_[d.index + 1]) * std::sqrt(gravity_ * diameter);
+  const double threshold = mix(threshold_[d.index], threshold_[d.index + 1]) * std::sqrt(gravity_ * diameter);
   return {threshold, mix(low.amplitude / low.threshold, high.amplitude / high.threshold) * threshold,
           mix(low.correction, high.correction)};
 }
@@ -186,7 +186,8 @@ SaltationState SaltationTable::state(double u, double diameter) const {
   const double speed = std::sqrt(gravity_ * diameter);
   SaltationState s;
   s.friction_velocity = u;
-  s.impact_threshold = speed * (threshold_[d.index] + d.part * (threshold_[d.index + 1] - threshold_[d.index]));
+  s.impact_threshold =
+      speed * (threshold_[d.index] + d.part * (threshold_[d.index + 1] - threshold_[d.index]));
   const double threshold = s.impact_threshold;
   const double ratio = std::clamp(u / threshold, ratios_.front(), ratios_.back());
   const auto above = std::upper_bound(ratios_.begin() + 1, ratios_.end() - 1, ratio);
@@ -209,10 +210,9 @@ SaltationState SaltationTable::state(double u, double diameter) const {
     s.surface_friction_velocity = u;
     return s;
   }
-  s.surface_friction_velocity =
-      ratio > ratios_.front()
-          ? mix(&Scaled::surface) * threshold
-          : threshold + (u - threshold) / (ratio - 1) * (mix(&Scaled::surface) - 1);
+  s.surface_friction_velocity = ratio > ratios_.front()
+                                    ? mix(&Scaled::surface) * threshold
+                                    : threshold + (u - threshold) / (ratio - 1) * (mix(&Scaled::surface) - 1);
   s.apparent_roughness = std::exp(mix(&Scaled::log_roughness)) * diameter;
   s.mass_flux = mix(&Scaled::flux) * threshold * (u * u - threshold * threshold);
   const double volume = M_PI / 6 * diameter * diameter * diameter;
@@ -253,7 +253,8 @@ SaltationTable SaltationTable::read(const std::string& path) {
   SaltationTable table;
   const std::vector<double>& diameter = column("diameter_m");
   const std::vector<double>& ratio = column("ratio");
-  for (std::size_t i = 0; i < diameter.size() && diameter[i] == diameter[0]; ++i) table.ratios_.push_back(ratio[i]);
+  for (std::size_t i = 0; i < diameter.size() && diameter[i] == diameter[0]; ++i)
+    table.ratios_.push_back(ratio[i]);
   const std::size_t n = table.ratios_.size();
   for (std::size_t i = 0; i < diameter.size(); ++i) {
     if (i % n == 0) table.diameters_.push_back(diameter[i]);

@@ -15,8 +15,8 @@ namespace aeolian {
 SaltationState summary(const SteadyState& state, double impact_threshold);
 
 /// Solved states over friction velocity and grain diameter, for one material in one air, kept in a file and
-/// interpolated: linear in u* / u*_it and in ln d of what varies slowly (flux over excess stress, lengths over
-/// d, speeds over sqrt(g d)).
+/// interpolated: linear in u* / u*_it and in ln d of what varies slowly (flux over excess stress, lengths
+/// over d, speeds over sqrt(g d)).
 class SaltationTable {
  public:
   using Kernels = std::function<std::unique_ptr<SplashKernel>(const SaltatingBed&)>;

@@ -43,12 +43,14 @@ SampledKernel::SampledKernel(std::shared_ptr<const Splash> splash, std::string n
     throw Error("sampled splash: speeds in an octave are " + std::to_string(sampling.speeds_per_octave) +
                 ", must be 1 to 32");
   if (sampling.elevations < 2 || sampling.elevations > 360)
-    throw Error("sampled splash: elevations are " + std::to_string(sampling.elevations) + ", must be 2 to 360");
+    throw Error("sampled splash: elevations are " + std::to_string(sampling.elevations) +
+                ", must be 2 to 360");
   if (!(sampling.slowest >= 0.01 && sampling.slowest <= 10))
     throw Error("sampled splash: the slowest launch is " + std::to_string(sampling.slowest) +
                 " sqrt(g d), must be 0.01 to 10");
   slowest_ = sampling.slowest * std::sqrt(atmosphere.gravity * grain.diameter);
-  speeds_ = static_cast<std::size_t>(std::ceil(sampling.speeds_per_octave * std::log2(400 / sampling.slowest)));
+  speeds_ =
+      static_cast<std::size_t>(std::ceil(sampling.speeds_per_octave * std::log2(400 / sampling.slowest)));
   elevations_ = static_cast<std::size_t>(sampling.elevations);
   draw();
 }
@@ -65,7 +67,8 @@ void SampledKernel::draw() {
     }
 
   const double fastest = slowest_ * std::exp2(static_cast<double>(speeds_) / octave);
-  knots_ = static_cast<std::size_t>(std::ceil(knots_per_octave * std::log2(2 * fastest / slowest_impact))) + 1;
+  knots_ =
+      static_cast<std::size_t>(std::ceil(knots_per_octave * std::log2(2 * fastest / slowest_impact))) + 1;
   auto table = std::make_shared<std::vector<double>>(knots_ * angles.size() * classes_.size(), 0.0);
   SplashEvent event;
   for (std::size_t k = 0; k < knots_ * angles.size(); ++k) {
@@ -93,7 +96,8 @@ void SampledKernel::draw() {
 std::vector<double> SampledKernel::first_spectrum() const {
   std::vector<double> spectrum(classes_.size());
   for (std::size_t k = 0; k < spectrum.size(); ++k)
-    if (classes_.vx[k] > 0) spectrum[k] = std::exp(-std::hypot(classes_.vx[k], classes_.vy[k]) / (70 * slowest_));
+    if (classes_.vx[k] > 0)
+      spectrum[k] = std::exp(-std::hypot(classes_.vx[k], classes_.vy[k]) / (70 * slowest_));
   const double sum = number(spectrum);
   for (double& p : spectrum) p /= sum;
   return spectrum;

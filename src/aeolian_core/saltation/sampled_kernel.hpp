@@ -48,8 +48,8 @@ class SampledKernel : public SplashKernel {
   double slowest_;  ///< [m/s]
   std::size_t speeds_;
   std::size_t elevations_;
-  std::size_t knots_ = 0;                              ///< of impact speed
-  std::shared_ptr<const std::vector<double>> table_;   ///< a spectrum for each knot of speed and angle
+  std::size_t knots_ = 0;                             ///< of impact speed
+  std::shared_ptr<const std::vector<double>> table_;  ///< a spectrum for each knot of speed and angle
   Launches classes_;
 };
 

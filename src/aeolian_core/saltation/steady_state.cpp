@@ -37,8 +37,9 @@ double SteadyState::mass_flux() const {
 
 double SteadyState::mean(const std::vector<double>& column) const {
   const double rate = impact_rate();
-  return rate > 0 ? std::inner_product(launches.number.begin(), launches.number.end(), column.begin(), 0.0) / rate
-                  : 0;
+  return rate > 0
+             ? std::inner_product(launches.number.begin(), launches.number.end(), column.begin(), 0.0) / rate
+             : 0;
 }
 
 double SteadyState::spread(const std::vector<double>& column) const {

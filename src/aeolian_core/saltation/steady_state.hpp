@@ -43,11 +43,11 @@ struct SteadyState {
   double friction_velocity = 0;          ///< u* of the free wind [m/s]
   double surface_friction_velocity = 0;  ///< u*_eff at the bed [m/s]
   WindProfile wind;
-  Launches launches;                  ///< number: per area and time [m^-2 s^-1]
-  Landings landings;                  ///< of classes that are launched, zero for others
-  std::vector<double> grain_stress;   ///< that the grains carry at the wind's levels [Pa]
-  std::vector<double> spectrum;       ///< of one grain, the splash kernel's
-  double grain_mass = 0;              ///< [kg]
+  Launches launches;                 ///< number: per area and time [m^-2 s^-1]
+  Landings landings;                 ///< of classes that are launched, zero for others
+  std::vector<double> grain_stress;  ///< that the grains carry at the wind's levels [Pa]
+  std::vector<double> spectrum;      ///< of one grain, the splash kernel's
+  double grain_mass = 0;             ///< [kg]
 
   int iterations = 0;
   double replacement = 0;      ///< grains that leave for one that lands
@@ -65,7 +65,7 @@ struct SteadyState {
 struct SolverSettings {
   double tolerance = 1e-3;         ///< of replacement, spectrum and wind
   double flight_tolerance = 1e-4;  ///< see FlightConditions
-  int most_iterations = 60;        ///< then the slow, sure way: bisection
+  int most_iterations = 60;        ///< then slower, surer ways: from weaker winds, by bisection
 };
 
 /// The fixed point of Werner (1987), ch. IV, found with the friction velocity at the surface as the unknown;
@@ -90,6 +90,13 @@ class SaltationSolver {
   const SaltatingBed& bed() const { return bed_; }
 
  private:
+  /// The usual, fast way, from a cold start or another state.
+  SteadyState approach_from(double friction_velocity, const SteadyState* begin) const;
+  /// Step by step from just above the threshold; the last steady state on the way.
+  SteadyState rise_to(double friction_velocity, double threshold) const;
+  /// By halving the interval of the surface's friction velocity.
+  SteadyState bisect(double friction_velocity) const;
+
   SaltatingBed bed_;
   std::unique_ptr<SplashKernel> splash_;
   SolverSettings settings_;

@@ -94,7 +94,8 @@ void TransientSaltation::advance(double duration, double friction_velocity) {
     throw Error("transient saltation: friction velocity is " + std::to_string(friction_velocity) +
                 " m/s, must be 0 to 10");
   if (!(duration >= 0 && std::isfinite(duration)))
-    throw Error("transient saltation: the duration is " + std::to_string(duration) + " s, must be zero or more");
+    throw Error("transient saltation: the duration is " + std::to_string(duration) +
+                " s, must be zero or more");
   const double end = time_ + duration - 0.5 * step_;
   while (time_ < end) step(friction_velocity);
 }
@@ -131,8 +132,7 @@ void TransientSaltation::step(double free) {
   history_.pop_back();
   splash_->launch(spectrum_, launches_);
   for (std::size_t k = 0; k < launches_.size(); ++k) history_.front()[k] += launches_.number[k];
-  const double excess =
-      bed_.atmosphere.density * (surface_ * surface_ - fluid_threshold_ * fluid_threshold_);
+  const double excess = bed_.atmosphere.density * (surface_ * surface_ - fluid_threshold_ * fluid_threshold_);
   history_.front()[entrained_class_] += std::max(0.0, entrained_ * excess * step_);
   time_ += step_;
 }

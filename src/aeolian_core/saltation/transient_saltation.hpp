@@ -31,9 +31,9 @@ class TransientSaltation {
   /// negative, not finite or above 10 m/s.
   void advance(double duration, double friction_velocity);
 
-  double time() const { return time_; }                    ///< [s]
-  double mass_flux() const { return mass_flux_; }          ///< [kg m^-1 s^-1]
-  double impact_rate() const { return impact_rate_; }      ///< [m^-2 s^-1]
+  double time() const { return time_; }                ///< [s]
+  double mass_flux() const { return mass_flux_; }      ///< [kg m^-1 s^-1]
+  double impact_rate() const { return impact_rate_; }  ///< [m^-2 s^-1]
   double surface_friction_velocity() const { return surface_; }
 
  private:
@@ -44,8 +44,8 @@ class TransientSaltation {
   SaltatingBed bed_;
   std::unique_ptr<SplashKernel> splash_;
   Drag drag_;
-  double entrained_;         ///< [N^-1 s^-1]
-  double fluid_threshold_;   ///< [m/s]
+  double entrained_;        ///< [N^-1 s^-1]
+  double fluid_threshold_;  ///< [m/s]
   double step_;
   WindProfile wind_;
   std::vector<double> share_, stress_, spectrum_;

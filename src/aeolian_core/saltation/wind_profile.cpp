@@ -14,9 +14,15 @@ constexpr std::size_t knots_per_level = WindProfile::Table::per_octave / WindPro
 }  // namespace
 
 WindProfile::WindProfile(double roughness)
-    : roughness_(roughness), inverse_roughness_(1 / roughness), height_(levels), speed_(levels), shear_(levels), table_(0, octaves) {
+    : roughness_(roughness),
+      inverse_roughness_(1 / roughness),
+      height_(levels),
+      speed_(levels),
+      shear_(levels),
+      table_(0, octaves) {
   if (!(roughness > 0 && std::isfinite(roughness)))
-    throw Error("wind profile: the roughness length is " + std::to_string(roughness) + " m, must be positive");
+    throw Error("wind profile: the roughness length is " + std::to_string(roughness) +
+                " m, must be positive");
   for (std::size_t i = 0; i < levels; ++i) height_[i] = roughness * table_.knot(i * knots_per_level);
   for (std::size_t k = 0; k < table_.pieces(); ++k) {
     const double begin = table_.knot(k / knots_per_level * knots_per_level);

@@ -30,7 +30,7 @@ class WindProfile {
 
   double roughness() const { return roughness_; }
   double height(std::size_t level) const { return height_[level]; }  ///< [m]
-  const double* heights() const { return height_.data(); }                   ///< of all levels [m]
+  const double* heights() const { return height_.data(); }           ///< of all levels [m]
   /// The highest level that is not above a height.
   std::size_t level_below(double height) const {
     if (!(height > roughness_)) return 0;

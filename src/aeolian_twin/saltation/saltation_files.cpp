@@ -34,18 +34,23 @@ Table wind_table(const SteadyState& s) {
 }
 
 Table launch_table(const SteadyState& s) {
-  Table table{{"launch_vx_m_s", "launch_vy_m_s", "rate_m2_s", "impact_vx_m_s", "impact_vy_m_s", "impact_speed_m_s",
-               "impact_angle_deg", "hop_length_m", "hop_height_m", "flight_time_s"},
+  Table table{{"launch_vx_m_s", "launch_vy_m_s", "rate_m2_s", "impact_vx_m_s", "impact_vy_m_s",
+               "impact_speed_m_s", "impact_angle_deg", "hop_length_m", "hop_height_m", "flight_time_s"},
               std::vector<std::vector<double>>(10)};
   for (std::size_t k = 0; k < s.launches.size(); ++k) {
     if (!(s.launches.number[k] > 0)) continue;
     const double vx = s.landings.vx[k];
     const double vy = s.landings.vy[k];
-    const double row[] = {s.launches.vx[k],      s.launches.vy[k],
-                          s.launches.number[k],  vx,
-                          vy,                    std::hypot(vx, vy),
-                          radians_to_degrees(std::atan2(vy, vx)), s.landings.length[k],
-                          s.landings.apex[k],    s.landings.duration[k]};
+    const double row[] = {s.launches.vx[k],
+                          s.launches.vy[k],
+                          s.launches.number[k],
+                          vx,
+                          vy,
+                          std::hypot(vx, vy),
+                          radians_to_degrees(std::atan2(vy, vx)),
+                          s.landings.length[k],
+                          s.landings.apex[k],
+                          s.landings.duration[k]};
     for (std::size_t c = 0; c < table.columns.size(); ++c) table.columns[c].push_back(row[c]);
   }
   return table;

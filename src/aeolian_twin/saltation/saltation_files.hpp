@@ -21,8 +21,8 @@ struct SaltationRun {
   std::string splash;
   std::optional<double> impact_threshold;  ///< [m/s]
   std::string no_threshold;                ///< why there is none
-  std::vector<SolvedWind> winds;           ///< weaker ones for comparison first, the one that was asked for last
-  std::optional<FluxLaw> law;              ///< through all of them
+  std::vector<SolvedWind> winds;  ///< weaker ones for comparison first, the one that was asked for last
+  std::optional<FluxLaw> law;     ///< through all of them
 
   const SolvedWind& asked() const { return winds.back(); }
 };
@@ -30,13 +30,13 @@ struct SaltationRun {
 /// The flux in a recorded wind.
 struct GustRun {
   std::vector<double> time, friction_velocity;  ///< [s], [m/s]
-  std::vector<double> steady;                   ///< flux in balance with the wind of the moment [kg m^-1 s^-1]
-  std::vector<double> relaxed;                  ///< with T_sat and hysteresis
-  std::vector<double> in_time;                  ///< by eq. 4.35; empty where it was not asked for
+  std::vector<double> steady;   ///< flux in balance with the wind of the moment [kg m^-1 s^-1]
+  std::vector<double> relaxed;  ///< with T_sat and hysteresis
+  std::vector<double> in_time;  ///< by eq. 4.35; empty where it was not asked for
 };
 
-/// Writes profiles.csv (all by height), wind.csv (levels of the solver, from the roughness length upwards) and
-/// launches.csv (each class of launches with its landing) into a folder.
+/// Writes profiles.csv (all by height), wind.csv (levels of the solver, from the roughness length upwards)
+/// and launches.csv (each class of launches with its landing) into a folder.
 void write_saltation_tables(const SaltationRun& run, const std::string& folder);
 /// Writes gusts.csv.
 void write_gusts(const GustRun& gusts, const std::string& folder);

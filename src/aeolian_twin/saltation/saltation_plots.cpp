@@ -22,7 +22,8 @@ std::string colour_of(std::size_t wind, std::size_t winds) {
   return colours[std::size(colours) - std::min(winds, std::size(colours)) + wind % std::size(colours)];
 }
 
-/// Means over layers that grow with height as the spacing of the grains' summits does; y are their middles [cm].
+/// Means over layers that grow with height as the spacing of the grains' summits does; y are their middles
+/// [cm].
 Curve against_height(const SaltationProfiles& p, const std::vector<double>& column, double unit) {
   constexpr double growth = 1.4;
   Curve curve;
@@ -83,7 +84,8 @@ void plot_winds(const std::vector<const SolvedWind*>& winds, const std::string& 
     write_data(script, fmt::format("with{}", i), with);
     write_data(script, fmt::format("without{}", i), without);
     const std::string colour = colour_of(i, winds.size());
-    curves += fmt::format("{}$with{} with lines lw 2.5 lc rgb '{}' title '{}'", i ? ", " : "", i, colour, name_of(s));
+    curves += fmt::format("{}$with{} with lines lw 2.5 lc rgb '{}' title '{}'", i ? ", " : "", i, colour,
+                          name_of(s));
     curves += fmt::format(", $without{} with lines lw 1 dt 3 lc rgb '{}' title '{}'", i, colour,
                           i + 1 == winds.size() ? "without grains" : "");
   }
@@ -99,8 +101,9 @@ void plot_winds(const std::vector<const SolvedWind*>& winds, const std::string& 
     }
   }
   const SteadyState& strongest = winds.back()->state;
-  script << plot_style << "set logscale y\nset yrange [0.001:100]\nset xrange [0:"
-         << 1.15 * strongest.wind.speed(1) << "]\nset grid x y\n"
+  script << plot_style
+         << "set logscale y\nset yrange [0.001:100]\nset xrange [0:" << 1.15 * strongest.wind.speed(1)
+         << "]\nset grid x y\n"
          << "set xlabel 'mean wind [m/s]'\nset ylabel 'height over the bed [cm]'\nset key top left\n"
          << "set title 'Wind in balance with saltating grains'\n"
          << mark << "plot " << curves << "\n";
@@ -116,19 +119,22 @@ void plot_heights(const std::vector<const SolvedWind*>& winds, const std::string
     const char* title;
     std::vector<double> SaltationProfiles::*column;
     double unit;
-  } panels[] = {{"flux", "mass flux [kg m^{-2} s^{-1}]", &SaltationProfiles::number_flux, winds[0]->state.grain_mass},
-                {"energy", "kinetic-energy flux [W m^{-2}]", &SaltationProfiles::kinetic_flux, 1},
-                {"drag", "drag of the grains on the air [N m^{-3}]", &SaltationProfiles::drag, 1}};
+  } panels[] = {
+      {"flux", "mass flux [kg m^{-2} s^{-1}]", &SaltationProfiles::number_flux, winds[0]->state.grain_mass},
+      {"energy", "kinetic-energy flux [W m^{-2}]", &SaltationProfiles::kinetic_flux, 1},
+      {"drag", "drag of the grains on the air [N m^{-3}]", &SaltationProfiles::drag, 1}};
   for (std::size_t i = 0; i < winds.size(); ++i)
     for (const auto& panel : panels)
       write_data(script, fmt::format("{}{}", panel.name, i),
                  against_height(winds[i]->profiles, winds[i]->profiles.*panel.column, panel.unit));
-  script << plot_style << "set grid x y\nset multiplot layout 1,3 title 'What flies at which height'\nset yrange [0:"
+  script << plot_style
+         << "set grid x y\nset multiplot layout 1,3 title 'What flies at which height'\nset yrange [0:"
          << 100 * top << "]\nset xtics rotate by -35\n";
   for (const auto& panel : panels) {
     const bool first = &panel == &panels[0];
-    script << "set xlabel '" << panel.title << "' offset 0,-0.6\nset xrange [" << (panel.name[0] == 'd' ? "*" : "0")
-           << ":*]\nset ylabel '" << (first ? "height over the bed [cm]" : "") << "'\n"
+    script << "set xlabel '" << panel.title << "' offset 0,-0.6\nset xrange ["
+           << (panel.name[0] == 'd' ? "*" : "0") << ":*]\nset ylabel '"
+           << (first ? "height over the bed [cm]" : "") << "'\n"
            << (panel.name[0] == 'd' ? "set key top right\n" : "unset key\n") << "plot ";
     for (std::size_t i = 0; i < winds.size(); ++i)
       script << (i ? ", " : "") << "$" << panel.name << i << " with lines lw 2.2 lc rgb '"
@@ -176,15 +182,16 @@ void plot_launches(const std::vector<const SolvedWind*>& winds, const std::strin
     write_data(script, fmt::format("up{}", i), slower(s.launches.vy, s.launches.number));
     write_data(script, fmt::format("impact{}", i), slower(total, s.launches.number));
   }
-  script << plot_style << "set grid x y\nset multiplot layout 1,2 title 'Grains that leave the bed and grains that land'\n"
+  script << plot_style
+         << "set grid x y\nset multiplot layout 1,2 title 'Grains that leave the bed and grains that land'\n"
          << "set ylabel 'grains that are slower [%]'\nset yrange [0:100]\nset key bottom right\n";
   for (const char* name : {"up", "impact"}) {
     const bool leaving = name[0] == 'u';
-    script << "set xlabel '" << (leaving ? "upward speed at launch [m/s]" : "speed of impact [m/s]") << "'\nset xrange [0:"
-           << (leaving ? up : impact) << "]\nplot ";
+    script << "set xlabel '" << (leaving ? "upward speed at launch [m/s]" : "speed of impact [m/s]")
+           << "'\nset xrange [0:" << (leaving ? up : impact) << "]\nplot ";
     for (std::size_t i = 0; i < winds.size(); ++i)
-      script << (i ? ", " : "") << "$" << name << i << " with lines lw 2.2 lc rgb '" << colour_of(i, winds.size())
-             << "' title '" << name_of(winds[i]->state) << "'";
+      script << (i ? ", " : "") << "$" << name << i << " with lines lw 2.2 lc rgb '"
+             << colour_of(i, winds.size()) << "' title '" << name_of(winds[i]->state) << "'";
     script << "\n";
   }
   script << "unset multiplot\n";
@@ -221,10 +228,12 @@ void plot_gusts(const GustRun& g, const std::string& folder) {
   script << plot_style << "set multiplot layout 2,1\nset xrange [" << g.time.front() << ":" << g.time.back()
          << "]\nset yrange [0:*]\nset lmargin 9\nset ylabel 'friction velocity [m/s]'\nunset key\n"
          << "plot $wind with lines lw 1.5 lc rgb measured\n"
-         << "set key outside top center horizontal\nset xlabel 'time [s]'\nset ylabel 'mass flux [g m^{-1} s^{-1}]'\n"
+         << "set key outside top center horizontal\nset xlabel 'time [s]'\nset ylabel 'mass flux [g m^{-1} "
+            "s^{-1}]'\n"
          << "plot $steady with lines lw 1 lc rgb baseline title 'in balance with each moment', "
          << "$relaxed with lines lw 2 lc rgb forecast title 'relaxing, with hysteresis'";
-  if (!g.in_time.empty()) script << ", $solved with lines lw 2 lc rgb second title 'solved in time (eq. 4.35)'";
+  if (!g.in_time.empty())
+    script << ", $solved with lines lw 2 lc rgb second title 'solved in time (eq. 4.35)'";
   script << "\nunset multiplot\n";
   plot_svg(script.str(), 1000, 560, folder + "/gusts.svg");
 }

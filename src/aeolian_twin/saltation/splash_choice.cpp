@@ -21,7 +21,8 @@ SplashSampling out_of_pockets() {
 
 }  // namespace
 
-std::unique_ptr<SplashKernel> splash_choice(const std::string& value, const SaltatingBed& bed, int thesis_case) {
+std::unique_ptr<SplashKernel> splash_choice(const std::string& value, const SaltatingBed& bed,
+                                            int thesis_case) {
   const std::string table = "table:";
   if (value == "werner")
     return std::make_unique<DistributionKernel>(DistributionSplash::thesis_case(thesis_case));
@@ -34,8 +35,8 @@ std::unique_ptr<SplashKernel> splash_choice(const std::string& value, const Salt
   }
   if (value.compare(0, table.size(), table) == 0) {
     const auto read = std::make_shared<SplashTable>(SplashTable::read(value.substr(table.size())));
-    return std::make_unique<SampledKernel>(std::make_shared<TabulatedSplash>(read, bed.grain), value, bed.grain,
-                                           bed.atmosphere, out_of_pockets());
+    return std::make_unique<SampledKernel>(std::make_shared<TabulatedSplash>(read, bed.grain), value,
+                                           bed.grain, bed.atmosphere, out_of_pockets());
   }
   throw Error("--splash: '" + value +
               "' is not known, must be werner, ungar_haff, kok_renno, coarse_sand or table:FILE");

@@ -93,13 +93,14 @@ SaltationRun solve(const Options& o, const SaltationSolver& solver) {
 
 GustRun blow(const Options& o, const SaltationRun& run, const SplashKernel& splash) {
   if (!run.law)
-    throw Error(fmt::format("--gusts: needs a flux law, but at --friction-velocity {:g} grains do not saltate well "
-                            "above the threshold{}",
-                            o.friction_velocity,
-                            run.impact_threshold ? fmt::format(", {:.3g} m/s", *run.impact_threshold) : ""));
+    throw Error(fmt::format(
+        "--gusts: needs a flux law, but at --friction-velocity {:g} grains do not saltate well "
+        "above the threshold{}",
+        o.friction_velocity, run.impact_threshold ? fmt::format(", {:.3g} m/s", *run.impact_threshold) : ""));
   const WindRecord record = read_wind_record(o.gusts);
   if (record.time.size() < 2)
-    throw Error(o.gusts + ": there are " + std::to_string(record.time.size()) + " samples, must be two or more");
+    throw Error(o.gusts + ": there are " + std::to_string(record.time.size()) +
+                " samples, must be two or more");
   GustRun g;
   g.time = record.time;
   FluxResponse relaxed(*run.law, std::max(run.bed.fluid_threshold(), run.law->threshold));
@@ -122,10 +123,12 @@ GustRun blow(const Options& o, const SaltationRun& run, const SplashKernel& spla
 void tell(const SaltationRun& run) {
   const SteadyState& s = run.asked().state;
   if (s.steady())
-    fmt::print("u* {:.3g} m/s: flux {:.4g} kg/(m s), {:.3g} impacts/(m^2 s), u* at the bed {:.3g} m/s; threshold {:.3g} "
-               "m/s\n",
-               s.friction_velocity, s.mass_flux(), s.impact_rate(), s.surface_friction_velocity,
-               run.impact_threshold.value_or(0));
+    fmt::print(
+        "u* {:.3g} m/s: flux {:.4g} kg/(m s), {:.3g} impacts/(m^2 s), u* at the bed {:.3g} m/s; threshold "
+        "{:.3g} "
+        "m/s\n",
+        s.friction_velocity, s.mass_flux(), s.impact_rate(), s.surface_friction_velocity,
+        run.impact_threshold.value_or(0));
   else
     fmt::print("u* {:.3g} m/s: no saltation: {}\n", s.friction_velocity, s.reason);
 }
@@ -138,7 +141,8 @@ int run(int argc, char** argv) {
   app.add_option("--grain-density", o.density, "[kg/m^3]")->capture_default_str();
   app.add_option("--splash", o.splash, "werner, ungar_haff, kok_renno, coarse_sand or table:FILE")
       ->capture_default_str();
-  app.add_option("--case", o.thesis_case, "of Werner's table 4.3, with --splash werner")->capture_default_str();
+  app.add_option("--case", o.thesis_case, "of Werner's table 4.3, with --splash werner")
+      ->capture_default_str();
   app.add_option("--air-density", o.atmosphere.density, "[kg/m^3]")->capture_default_str();
   app.add_option("--air-viscosity", o.atmosphere.viscosity, "kinematic [m^2/s]")->capture_default_str();
   app.add_option("--gravity", o.atmosphere.gravity, "[m/s^2]")->capture_default_str();
