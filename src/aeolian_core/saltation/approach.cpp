@@ -48,6 +48,7 @@ void Approach::take(const SteadyState& other) {
 
 void Approach::step() {
   ++steps_;
+  extended_ = false;
   wind_.set(free_, surface_, share_);
   splash_->launch(spectrum_, launches_);
   landings_.resize(launches_.size());
@@ -107,14 +108,14 @@ bool Approach::extend_if_cut_off() {
     if (!splash_->extend(next_spectrum_)) return false;
     accept();
     mixing_ = AndersonMixing(memory);
-    spectrum_change_ = 1;  // what was cut off is not known yet
+    extended_ = true;
   }
   return true;
 }
 
 bool Approach::settled(double tolerance) const {
-  return stress_[0] > 0 && std::abs(replacement_ - 1) < tolerance && spectrum_change_ < tolerance &&
-         wind_change_ < tolerance;
+  return stress_[0] > 0 && !extended_ && std::abs(replacement_ - 1) < tolerance &&
+         spectrum_change_ < tolerance && wind_change_ < tolerance;
 }
 
 SteadyState Approach::state() const {

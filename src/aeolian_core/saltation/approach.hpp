@@ -29,6 +29,8 @@ class Approach {
 
   /// Where the last step's fast end cuts off grains: a longer spectrum. False where it cannot be longer.
   bool extend_if_cut_off();
+  /// Whether that has made it longer since the last step, whose figures then do not count.
+  bool was_extended() const { return extended_; }
   /// Whether a step changes nothing more than this, relative.
   bool settled(double tolerance) const;
 
@@ -55,6 +57,7 @@ class Approach {
   double free_ = 0, surface_ = 0;
   double replacement_ = 0, spectrum_change_ = 0, wind_change_ = 0;
   int steps_ = 0;
+  bool extended_ = false;
 };
 
 }  // namespace aeolian

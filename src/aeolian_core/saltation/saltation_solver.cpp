@@ -58,7 +58,7 @@ void relax(Approach& approach, double tolerance) {
 /// number.
 bool dies_out(const Approach& approach, double tolerance) {
   const double replacement = approach.replacement();
-  return replacement < 1 &&
+  return replacement < 1 && !approach.was_extended() &&
          (replacement < 0.5 || approach.spectrum_change() < std::max(tolerance, 1 - replacement));
 }
 
@@ -85,6 +85,7 @@ SteadyState SaltationSolver::approach_from(double free, const SteadyState* begin
   // In too weak a wind there is nothing to mix: a few grains are followed until they are seen to die out.
   for (int n = 0; n < 40 && surface >= most; ++n) {
     approach.step();
+    if (!approach.extend_if_cut_off()) return outcome(approach, Outcome::none, too_fast);
     if (dies_out(approach, settings_.tolerance)) return outcome(approach, Outcome::below_threshold, too_few);
     approach.accept();
     if (approach.replacement() > 1) break;
@@ -92,8 +93,7 @@ SteadyState SaltationSolver::approach_from(double free, const SteadyState* begin
 
   for (int n = 0; n < settings_.most_iterations; ++n) {
     approach.step();
-    if (approach.spectrum_change() < 0.1 && !approach.extend_if_cut_off())
-      return outcome(approach, Outcome::none, too_fast);
+    if (!approach.extend_if_cut_off()) return outcome(approach, Outcome::none, too_fast);
     if (approach.settled(settings_.tolerance)) return outcome(approach, Outcome::steady);
     if (approach.surface() >= most && dies_out(approach, settings_.tolerance))
       return outcome(approach, Outcome::below_threshold, too_few);
@@ -140,8 +140,12 @@ SteadyState SaltationSolver::solve(double free, const SteadyState* begin) const 
   }
   SteadyState state = approach_from(free, nullptr);
   if (state.outcome != Outcome::none) return state;
-  const std::optional<double> threshold = impact_threshold();
-  if (!threshold) return state;
+  std::string why;
+  const std::optional<double> threshold = impact_threshold(&why);
+  if (!threshold) {
+    state.reason = why;
+    return state;
+  }
   if (free > 1.1 * *threshold) {
     SteadyState risen = rise_to(free, *threshold);
     if (risen.steady() && risen.friction_velocity == free) return risen;
@@ -175,7 +179,7 @@ std::optional<double> SaltationSolver::impact_threshold(std::string* why) const 
   double wind = 0.8 * bed_.fluid_threshold();
   for (int n = 0; n < 200; ++n) {
     const double next = thin_step(approach, wind);
-    if (approach.spectrum_change() < 0.1 && !approach.extend_if_cut_off()) return none(too_fast);
+    if (!approach.extend_if_cut_off()) return none(too_fast);
     if (approach.settled(settings_.tolerance)) return next;
     wind = next;
     if (wind > strongest) return none(too_few);

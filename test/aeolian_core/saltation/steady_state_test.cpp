@@ -189,7 +189,7 @@ TEST(SteadyStateTest, nothing_is_ever_not_a_number) {
         EXPECT_EQ(s.steady(), s.reason.empty());
         blown += s.steady() ? 1 : 0;
       }
-  EXPECT_GT(blown, 25);
+  EXPECT_GT(blown, 20);
 }
 
 TEST(SteadyStateTest, a_storm_of_3_m_s_is_solved_for_coarse_sand_and_told_for_dust) {
@@ -223,6 +223,8 @@ TEST(SteadyStateTest, splash_functions_without_a_balance_are_told_with_the_reaso
   EXPECT_TRUE(all_finite(multiplying));
 
   splash = DistributionSplash::thesis_case(1);
+  splash.c1 = 1;
+  splash.c5 = 0;  // always one grain
   splash.restitution = 1;
   splash.conversion = 1;  // all of the horizontal velocity becomes vertical, and the vertical stays
   const SteadyState soaring = SaltationSolver(bed, DistributionKernel(splash)).solve(1);
