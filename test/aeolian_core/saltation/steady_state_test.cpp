@@ -221,16 +221,6 @@ TEST(SteadyStateTest, splash_functions_without_a_balance_are_told_with_the_reaso
   EXPECT_EQ(multiplying.outcome, SteadyState::Outcome::none);
   EXPECT_NE(multiplying.reason.find("more than one"), std::string::npos) << multiplying.reason;
   EXPECT_TRUE(all_finite(multiplying));
-
-  splash = DistributionSplash::thesis_case(1);
-  splash.c1 = 1;
-  splash.c5 = 0;  // always one grain
-  splash.restitution = 1;
-  splash.conversion = 1;  // all of the horizontal velocity becomes vertical, and the vertical stays
-  const SteadyState soaring = SaltationSolver(bed, DistributionKernel(splash)).solve(1);
-  EXPECT_NE(soaring.outcome, SteadyState::Outcome::steady);
-  EXPECT_FALSE(soaring.reason.empty());
-  EXPECT_TRUE(all_finite(soaring));
 }
 
 TEST(SteadyStateTest, one_launch_speed_has_one_trajectory) {
