@@ -113,9 +113,19 @@ bool Approach::extend_if_cut_off() {
   return true;
 }
 
+bool Approach::same_spectrum(double tolerance) const {
+  return stress_[0] > 0 && !extended_ && spectrum_change_ < tolerance && wind_change_ < tolerance;
+}
+
 bool Approach::settled(double tolerance) const {
-  return stress_[0] > 0 && !extended_ && std::abs(replacement_ - 1) < tolerance &&
-         spectrum_change_ < tolerance && wind_change_ < tolerance;
+  return same_spectrum(tolerance) && std::abs(replacement_ - 1) < tolerance;
+}
+
+double Approach::flux_over_stress() const {
+  double length = 0;
+  for (std::size_t k = 0; k < launches_.size(); ++k)
+    if (launches_.number[k] > negligible) length += launches_.number[k] * landings_.length[k];
+  return length / stress_[0];
 }
 
 SteadyState Approach::state() const {

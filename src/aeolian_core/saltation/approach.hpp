@@ -33,6 +33,10 @@ class Approach {
   bool was_extended() const { return extended_; }
   /// Whether a step changes nothing more than this, relative.
   bool settled(double tolerance) const;
+  /// The same for spectrum and wind alone, whatever the number of grains.
+  bool same_spectrum(double tolerance) const;
+  /// Mass flux over the stress that it takes from the wind, of the last step [s].
+  double flux_over_stress() const;
 
   double surface() const { return surface_; }
   double replacement() const { return replacement_; }

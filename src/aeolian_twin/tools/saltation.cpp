@@ -137,19 +137,30 @@ int run(int argc, char** argv) {
   CLI::App app(description);
   Options o;
   app.add_option("--friction-velocity", o.friction_velocity, "u* of the free wind [m/s]")->required();
-  app.add_option("--grain-diameter-mm", o.diameter_mm, "[mm]")->capture_default_str();
-  app.add_option("--grain-density", o.density, "[kg/m^3]")->capture_default_str();
+  app.add_option("--grain-diameter-mm", o.diameter_mm, "[mm]")
+      ->check(CLI::Range(0.01, 10.0))
+      ->capture_default_str();
+  app.add_option("--grain-density", o.density, "[kg/m^3]")
+      ->check(CLI::Range(50.0, 20000.0))
+      ->capture_default_str();
   app.add_option("--splash", o.splash, "werner, ungar_haff, kok_renno, coarse_sand or table:FILE")
       ->capture_default_str();
   app.add_option("--case", o.thesis_case, "of Werner's table 4.3, with --splash werner")
       ->capture_default_str();
-  app.add_option("--air-density", o.atmosphere.density, "[kg/m^3]")->capture_default_str();
-  app.add_option("--air-viscosity", o.atmosphere.viscosity, "kinematic [m^2/s]")->capture_default_str();
-  app.add_option("--gravity", o.atmosphere.gravity, "[m/s^2]")->capture_default_str();
+  app.add_option("--air-density", o.atmosphere.density, "[kg/m^3]")
+      ->check(CLI::Range(1e-3, 200.0))
+      ->capture_default_str();
+  app.add_option("--air-viscosity", o.atmosphere.viscosity, "kinematic [m^2/s]")
+      ->check(CLI::Range(1e-8, 0.1))
+      ->capture_default_str();
+  app.add_option("--gravity", o.atmosphere.gravity, "[m/s^2]")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str();
   app.add_option("--drag", o.drag_law, "sand (Cheng 1997) or sphere (as the thesis)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, DragLaw>{{"sand", DragLaw::sand}, {"sphere", DragLaw::sphere}}));
   app.add_option("--drag-scale", o.drag_scale, "multiplies the drag; 0.62 agrees with the thesis' figures")
+      ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();
   CLI::Option* gusts = app.add_option("--gusts", o.gusts, "CSV of a recorded wind");
   app.add_option("--anemometer-height", o.anemometer_height, "of the wind in --gusts [m]")
