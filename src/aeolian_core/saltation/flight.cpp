@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "aeolian_core/saltation/hermite.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
@@ -122,12 +123,6 @@ double inverse_sixth_root(double x) {
   float root = 0;
   std::memcpy(&root, &bits, sizeof root);
   return static_cast<double>(root);
-}
-
-/// Third-order value within a step from values and derivatives at its ends; `part` from 0 to 1.
-double hermite(double part, double h, double p0, double d0, double p1, double d1) {
-  const double q = 1 - part;
-  return q * q * ((1 + 2 * part) * p0 + part * h * d0) + part * part * ((1 + 2 * q) * p1 - q * h * d1);
 }
 
 /// Ends a step that goes through the ground, at the ground.

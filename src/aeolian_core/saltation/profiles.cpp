@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "aeolian_core/saltation/hermite.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/wind/log_law.hpp"
 
@@ -12,11 +13,6 @@ namespace {
 
 constexpr double flight_tolerance = 1e-4;
 constexpr double part_of_layer = 0.25;  ///< a flight is cut into pieces of this height, about
-
-double hermite(double part, double h, double p0, double d0, double p1, double d1) {
-  const double q = 1 - part;
-  return q * q * ((1 + 2 * part) * p0 + part * h * d0) + part * part * ((1 + 2 * q) * p1 - q * h * d1);
-}
 
 /// Adds one step of a flight of `rate` grains per area and time.
 void deposit(const FlightStep& s, double rate, double mass, double ground, SaltationProfiles& p) {
