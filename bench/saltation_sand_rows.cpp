@@ -103,6 +103,25 @@ void sand_rows(AccuracyTable& table) {
     const double law = 5 * bed.atmosphere.density / 9.81 * threshold * (0.16 - threshold * threshold);
     table.range_row("Q at u* 0.40 over the law of Duran & Kok" + who, 1 / 2.5, 2.5, flux[2] / law);
   }
+  const struct {
+    const char* what;
+    double diameter, density, u, surface, flux, length;
+  } others[] = {{"0.4 mm", 0.0004, 2650, .30, .268, .0052, .21},
+                {"0.4 mm", 0.0004, 2650, .40, .258, .0280, .21},
+                {"0.4 mm", 0.0004, 2650, .50, .247, .0592, .21},
+                {"snow 0.2 mm", 0.0002, 910, .20, .148, .0025, .085},
+                {"snow 0.2 mm", 0.0002, 910, .30, .139, .0104, .085},
+                {"snow 0.2 mm", 0.0002, 910, .40, .130, .0222, .085}};
+  for (const auto& o : others) {
+    SaltatingBed other;
+    other.grain.diameter = o.diameter;
+    other.grain.density = o.density;
+    const SteadyState s = SaltationSolver(other, KokRennoKernel(other.grain, other.atmosphere)).solve(o.u);
+    const std::string name = fmt::format("{}, u* {:.2f}, mean", o.what, o.u);
+    table.remark(name + ", u*_eff", o.surface, s.surface_friction_velocity);
+    table.remark(name + ", Q", o.flux, s.mass_flux());
+    table.remark(name + ", hop length", o.length, s.mean(s.landings.length));
+  }
   TransientSaltation transient(bed, KokRennoKernel(bed.grain, bed.atmosphere, {}, 3, 8));
   double steady = free.solve(0.4).mass_flux(), ninety = 0;
   while (transient.time() < 4) {
