@@ -6,7 +6,7 @@
 namespace aeolian {
 namespace {
 
-constexpr double negligible = 1e-7;       ///< classes below this part of all grains are not flown
+constexpr double negligible = 1e-6;       ///< classes below this part of all grains are not flown
 constexpr double cut_off_allowed = 1e-4;  ///< at the fast end, relative to the largest
 constexpr double counted = 1e-3;  ///< parts of a spectrum from here on must settle, relative to the largest
 constexpr int memory = 5;

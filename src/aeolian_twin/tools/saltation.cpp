@@ -146,6 +146,7 @@ int run(int argc, char** argv) {
   app.add_option("--splash", o.splash, "werner, ungar_haff, kok_renno, coarse_sand or table:FILE")
       ->capture_default_str();
   app.add_option("--case", o.thesis_case, "of Werner's table 4.3, with --splash werner")
+      ->check(CLI::Range(1, 6))
       ->capture_default_str();
   app.add_option("--air-density", o.atmosphere.density, "[kg/m^3]")
       ->check(CLI::Range(1e-3, 200.0))
