@@ -13,6 +13,14 @@ struct SaltationState {
   double impact_speed = 0;       ///< mean [m/s]
   double impact_angle = 0;       ///< mean, below the horizontal [rad]
   double hop_length = 0;         ///< mean [m]
+
+  /// What the three-number law does not tell: zero there.
+  /// @{
+  double surface_friction_velocity = 0;  ///< u*_eff, that the wind has left for the bed [m/s]
+  double hop_height = 0;                 ///< mean [m]
+  double flight_time = 0;                ///< mean [s]
+  double apparent_roughness = 0;         ///< that the wind above the grains seems to have [m]
+  /// @}
 };
 
 /// The steady state for quartz sand in air at sea level by the three-number law

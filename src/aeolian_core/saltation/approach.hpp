@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "aeolian_core/saltation/mixing.hpp"
+#include "aeolian_core/saltation/steady_state.hpp"
+
+namespace aeolian {
+
+/// A spectrum of launches and a wind on their way to the steady state.
+class Approach {
+ public:
+  Approach(const SaltatingBed& bed, const SplashKernel& splash, const Drag& drag, double flight_tolerance);
+
+  /// The winds from now on: free, and at the surface, not above it [m/s].
+  void set_winds(double free, double surface);
+  /// Spectrum and grains of another state, to begin with.
+  void take(const SteadyState& other);
+
+  /// Flies the spectrum in the wind with the grains in it and lets it land.
+  void step();
+  /// Goes on with the spectrum and grains that the last step has made.
+  void accept();
+  /// The same, mixed with the past, and with the surface wind that may bring the replacement to one; it stays
+  /// below `most`.
+  void mix(double most);
+  void forget() { mixing_.forget(); }
+
+  /// Where the last step's fast end cuts off grains: a longer spectrum. False where it cannot be longer.
+  bool extend_if_cut_off();
+  /// Whether that has made it longer since the last step, whose figures then do not count.
+  bool was_extended() const { return extended_; }
+  /// Whether a step changes nothing more than this, relative.
+  bool settled(double tolerance) const;
+  /// The same for spectrum and wind alone, whatever the number of grains.
+  bool same_spectrum(double tolerance) const;
+  /// Mass flux over the stress that it takes from the wind, of the last step [s].
+  double flux_over_stress() const;
+
+  double surface() const { return surface_; }
+  double replacement() const { return replacement_; }
+  double spectrum_change() const { return spectrum_change_; }
+  int steps() const { return steps_; }
+
+  /// The last step as a state: as many grains as bring the wind at the surface to what it is.
+  SteadyState state() const;
+
+ private:
+  const SaltatingBed& bed_;
+  const Drag& drag_;
+  double flight_tolerance_;
+  std::unique_ptr<SplashKernel> splash_;
+  AndersonMixing mixing_;
+  std::vector<double> spectrum_, share_;            ///< that were flown
+  std::vector<double> next_spectrum_, next_share_;  ///< that came of it
+  std::vector<double> stress_;
+  WindProfile wind_, next_wind_;
+  Launches launches_;
+  Landings landings_;
+  double free_ = 0, surface_ = 0;
+  double replacement_ = 0, spectrum_change_ = 0, wind_change_ = 0;
+  int steps_ = 0;
+  bool extended_ = false;
+};
+
+}  // namespace aeolian

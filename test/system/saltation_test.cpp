@@ -1,0 +1,100 @@
+// saltation as people run it.
+#include <cmath>
+#include <fstream>
+
+#include "program_outcome.hpp"
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include "aeolian_core/saltation/saltation_table.hpp"
+#include "aeolian_core/surface/csv.hpp"
+
+namespace aeolian {
+namespace {
+
+TEST(SaltationTest, writes_summary_tables_and_pictures) {
+  const TemporaryFolder folder;
+  const Outcome run = run_program(
+      "saltation --friction-velocity 0.75 --splash werner --case 1 --drag sphere "
+      "--grain-density 2600 --air-density 1.23 --out " +
+      folder.file("out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const YAML::Node summary = YAML::LoadFile(folder.file("out/summary.yaml"));
+  // Saltation specification, sec. 5.2.
+  EXPECT_NEAR(summary["state"]["surface_friction_velocity_m_s"].as<double>() / 0.2615, 1, 0.015);
+  EXPECT_NEAR(summary["state"]["mass_flux_kg_m_s"].as<double>() / 0.0651, 1, 0.015);
+  EXPECT_NEAR(summary["thresholds"]["impact_threshold_m_s"].as<double>() / 0.2996, 1, 0.015);
+  const Table profiles = read_csv(folder.file("out/profiles.csv"));
+  double flux = 0;
+  for (const double q : profiles.column("mass_flux_kg_m2_s"))
+    flux += q * (profiles.column("height_m")[1] - profiles.column("height_m")[0]);
+  EXPECT_NEAR(flux / summary["state"]["mass_flux_kg_m_s"].as<double>(), 1, 0.005);
+  EXPECT_GT(read_csv(folder.file("out/wind.csv")).rows(), 100u);
+  EXPECT_GT(read_csv(folder.file("out/launches.csv")).rows(), 10u);
+  for (const char* picture : {"winds.svg", "heights.svg", "launches.svg"})
+    EXPECT_NE(content_of(folder.file(std::string("out/") + picture)).find("</svg>"), std::string::npos)
+        << picture;
+}
+
+TEST(SaltationTest, gusts_drive_the_flux) {
+  const TemporaryFolder folder;
+  std::ofstream wind(folder.file("wind.csv"));
+  wind << "t_s,speed_m_s,direction_deg\n";
+  for (int i = 0; i <= 40; ++i) wind << 0.25 * i << ',' << (i % 20 < 10 ? 12 : 2) << ",90\n";
+  wind.close();
+  const Outcome run = run_program("saltation --friction-velocity 0.5 --gusts " + folder.file("wind.csv") +
+                                  " --out " + folder.file("out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Table gusts = read_csv(folder.file("out/gusts.csv"));
+  ASSERT_EQ(gusts.rows(), 41u);
+  const auto& steady = gusts.column("steady_flux_kg_m_s");
+  const auto& relaxed = gusts.column("relaxed_flux_kg_m_s");
+  EXPECT_GT(steady[5], 0);
+  EXPECT_EQ(steady[15], 0);
+  EXPECT_LT(relaxed[5], steady[5]);
+  EXPECT_GT(relaxed[15], 0);
+  EXPECT_GT(YAML::LoadFile(folder.file("out/summary.yaml"))["gusts"]["mean_relaxed_flux_kg_m_s"].as<double>(),
+            0);
+}
+
+TEST(SaltationTest, too_weak_a_wind_is_a_result) {
+  const TemporaryFolder folder;
+  const Outcome run = run_program("saltation --friction-velocity 0.1 --out " + folder.file("out"));
+  EXPECT_EQ(run.code, 0) << run.err;
+  const YAML::Node state = YAML::LoadFile(folder.file("out/summary.yaml"))["state"];
+  EXPECT_EQ(state["outcome"].as<std::string>(), "below_threshold");
+  EXPECT_EQ(state["mass_flux_kg_m_s"].as<double>(), 0);
+}
+
+TEST(SaltationTest, the_shipped_table_is_that_of_the_default_splash) {
+  const SaltationTable table =
+      SaltationTable::read(AEOLIAN_REPOSITORY "/config/saltation/sand_kok_renno.csv");
+  EXPECT_LE(table.error(), 0.02);
+  EXPECT_NEAR(table.state(0.4, 0.00025).mass_flux, 0.0346, 0.0007);
+}
+
+TEST(SaltationTest, bad_input_is_told_by_flag_and_value) {
+  const TemporaryFolder folder;
+  const std::string out = " --out " + folder.file("out");
+  const struct {
+    const char* arguments;
+    const char* says;
+  } rows[] = {{"--friction-velocity -1", "--friction-velocity: -1"},
+              {"--friction-velocity nan", "--friction-velocity: nan"},
+              {"--friction-velocity 0.4 --splash foo", "--splash: 'foo'"},
+              {"--friction-velocity 0.4 --splash table:absent.csv", "absent.csv"},
+              {"--friction-velocity 0.4 --grain-diameter-mm 0", "--grain-diameter-mm"},
+              {"--friction-velocity 0.4 --splash werner --case 9", "--case"},
+              {"--friction-velocity 0.4 --gusts absent.csv", "absent.csv"},
+              {"--friction-velocity 0.1 --gusts absent.csv", "--gusts"},
+              {"--friction-velocity 0.4 --air-density 0", "--air-density"}};
+  for (const auto& row : rows) {
+    const Outcome run = run_program(std::string("saltation ") + row.arguments + out);
+    EXPECT_EQ(run.code, 1) << row.arguments;
+    EXPECT_NE((run.err + run.out).find(row.says), std::string::npos)
+        << row.arguments << ": " << run.err << run.out;
+  }
+}
+
+}  // namespace
+}  // namespace aeolian
