@@ -41,7 +41,8 @@ class ImpactRun {
         grains_(bed.grains),
         gravity_(bed.grains.world().acceleration.norm()),
         plane_(bed.surface.top() + 2 * bed.radius),
-        follow_(rules.follow * std::sqrt(bed.radius / gravity_)) {
+        follow_(rules.follow * std::sqrt(bed.radius / gravity_)),
+        end_when_calm_(rules.end_when_calm) {
     outcome_.shot = shot;
     if (rules.sleep.speed > 0) {
       GrainWorld<Dim> world = grains_.world();
@@ -125,7 +126,7 @@ class ImpactRun {
       if (watch_) watch_(grains_, incident_, grains_.time() - begin_);
       if (i % steps_per_look == 0) {
         look_for_risen();
-        if (is_calm()) break;
+        if (end_when_calm_ && is_calm()) break;
       }
     }
     look_for_risen();
@@ -215,6 +216,7 @@ class ImpactRun {
   double gravity_;
   double plane_;
   double follow_;
+  bool end_when_calm_;
   ImpactOutcome outcome_;
   int incident_ = -1;
   double bed_mass_ = 0;

@@ -60,7 +60,8 @@ struct ImpactOutcome {
 struct ImpactRules {
   /// After the first contact, in sqrt(radius / g): 0.07 s for the thesis' grains of 1 cm.
   double follow = 2.19248;
-  SleepRule sleep;  ///< of the grains that the impact does not reach
+  bool end_when_calm = true;  ///< once no grain has the energy to rise to where it is noted
+  SleepRule sleep;            ///< of the grains that the impact does not reach
 };
 
 /// Sees the grains as an impact goes on, once a step; the time is that after the first contact, negative before.
@@ -68,8 +69,7 @@ template <int Dim>
 using ImpactWatch = std::function<void(const GrainDynamics<Dim>& grains, int incident, double time)>;
 
 /// Fires one grain at a copy of a bed (Werner 1987, ch. III; splash specification, sec. 3.2): grains that rise
-/// by more than a diameter above the bed's top are noted and taken away. It is over before its time, too, once
-/// no grain has the energy to rise so far. Throws Error for a shot that is not valid: speed, angle (1 to 90
+/// by more than a diameter above the bed's top are noted and taken away. Throws Error for a shot that is not valid: speed, angle (1 to 90
 /// degrees), size ratio (0.1 to 10).
 template <int Dim>
 ImpactOutcome fire(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rules,
