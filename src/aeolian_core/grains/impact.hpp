@@ -52,8 +52,9 @@ struct ImpactOutcome {
   std::optional<FirstContact> contact;  ///< none: the grain has not met the bed, nothing else counts
   std::optional<RisenGrain> rebound;    ///< none: the bed has captured the grain
   std::vector<RisenGrain> ejecta;       ///< in the order in which they rose
-  double incident_mass;                 ///< over that of a mean bed grain
-  double steps;                         ///< grains moved by steps: the work
+  double incident_mass = 1;             ///< over that of a mean bed grain
+  double steps = 0;                     ///< grains moved by steps: the work
+  int number = 0;                       ///< of the impact in its series
 };
 
 /// When an impact is over, and who takes part in the steps.

@@ -42,6 +42,7 @@ std::vector<ImpactOutcome> fire_series(const std::vector<Bed<Dim>>& beds, const 
           if (stop && *stop) return;
           const Bed<Dim>& bed = beds[i % beds.size()];
           outcomes[i] = fire<Dim>(bed, series_shot(bed, series, static_cast<int>(i)), rules);
+          outcomes[i].number = static_cast<int>(i);
           there[i] = 1;
           const std::lock_guard<std::mutex> lock(telling);
           ++finished;

@@ -68,9 +68,8 @@ void write_events_csv(const std::vector<StudyPoint>& points, const std::string& 
       "normal_angle_deg,approach_m_s,departure_m_s,grains_struck,effective_mass,rebound_x_m_s,rebound_y_m_s,"
       "rebound_z_m_s,rebound_spin_rad_s,rebound_time_s,ejecta,reptation_m");
   for (std::size_t p = 0; p < points.size(); ++p) {
-    for (std::size_t i = 0; i < points[p].outcomes.size(); ++i) {
-      const ImpactOutcome& o = points[p].outcomes[i];
-      lines << static_cast<double>(p) << static_cast<double>(i) << static_cast<double>(points[p].kind)
+    for (const ImpactOutcome& o : points[p].outcomes) {
+      lines << static_cast<double>(p) << o.number << static_cast<double>(points[p].kind)
             << o.shot.speed << o.shot.angle / degree << o.shot.size_ratio << points[p].roughness << o.shot.along
             << o.shot.across;
       if (o.contact)
@@ -97,9 +96,9 @@ void write_ejecta_csv(const std::vector<StudyPoint>& points, const std::string& 
       "point,impact,grain,kind,layer,radius_m,time_s,velocity_x_m_s,velocity_y_m_s,velocity_z_m_s,spin_rad_s,"
       "origin_x_m,origin_y_m,origin_z_m");
   for (std::size_t p = 0; p < points.size(); ++p)
-    for (std::size_t i = 0; i < points[p].outcomes.size(); ++i)
-      for (const RisenGrain& g : points[p].outcomes[i].ejecta) {
-        lines << static_cast<double>(p) << static_cast<double>(i) << g.grain << name_of(g.kind) << g.layer << g.radius
+    for (const ImpactOutcome& o : points[p].outcomes)
+      for (const RisenGrain& g : o.ejecta) {
+        lines << static_cast<double>(p) << o.number << g.grain << name_of(g.kind) << g.layer << g.radius
               << g.time << g.velocity.x() << g.velocity.y() << g.velocity.z() << g.spin << g.origin.x()
               << g.origin.y() << g.origin.z();
         lines.end();

@@ -88,10 +88,10 @@ void read_sleep(YamlSection section, StudySettings& study) {
   section.finish();
 }
 
-void read_impacts(YamlSection section, StudySettings& study) {
+void read_impacts(YamlSection section, const std::string& file, StudySettings& study) {
   const double unit = std::sqrt(gravity * study.diameter);
   if (section.has("speeds_m_s") == section.has("speeds_sqrt_gd"))
-    throw Error(study.file + ": impacts must have either speeds_m_s or speeds_sqrt_gd");
+    throw Error(file + ": impacts must have either speeds_m_s or speeds_sqrt_gd");
   if (section.has("speeds_m_s")) {
     study.speeds = list(section, "speeds_m_s", 1e-3, 1000);
   } else {
@@ -111,14 +111,15 @@ void read_impacts(YamlSection section, StudySettings& study) {
 StudySettings read_study(const std::string& file) {
   YamlSection root = YamlSection::load(file);
   StudySettings study;
-  study.file = file;
+  study.thesis_case.clear();
+  study.beds.clear();
   study.name = root.text("name");
   study.dimensions = word(root, "shape", {"discs", "spheres"}) == "discs" ? 2 : 3;
   double size_spread = 0;
   read_grains(root.section("grains"), study, size_spread);
   read_contact(root.section("contact"), study);
   for (YamlSection& bed : root.sections("beds")) study.beds.push_back(read_bed(bed, study, size_spread));
-  read_impacts(root.section("impacts"), study);
+  read_impacts(root.section("impacts"), file, study);
   if (root.has("sleep")) read_sleep(root.section("sleep"), study);
   if (root.has("thesis_case"))
     study.thesis_case = word(root, "thesis_case", {"A", "B", "C", "D", "E", "F", "G", "H", "I"});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,24 +12,23 @@ namespace aeolian {
 /// Beds of one recipe.
 struct BedKind {
   BedRecipe recipe;
-  int number = 4;
+  int number = 8;
 };
 
-/// What a study does: a file of config/splash in numbers.
+/// What a study does: a file of config/splash in numbers. Made like this, CASE A of Werner (1987), ch. III.
 struct StudySettings {
-  std::string file;         ///< where it was read
-  std::string name;         ///< what the pictures call it
-  std::string thesis_case;  ///< A to I, whose numbers stand beside the study's; empty: none
+  std::string name = "CASE A";    ///< what the pictures call it
+  std::string thesis_case = "A";  ///< A to I, whose numbers stand beside the study's; empty: none
   int dimensions = 2;       ///< 2: discs, 3: spheres
   double diameter = 0.02;   ///< of the bed's grains [m]
   double density = 2000;    ///< [kg/m^3]
   ContactLaw law;
   double steps_per_contact = 36;
-  std::vector<BedKind> beds;
-  std::vector<double> speeds;       ///< [m/s]
-  std::vector<double> angles;       ///< [rad]
-  std::vector<double> size_ratios;  ///< grain that is fired over those of the bed
-  int impacts = 40;                 ///< of each speed, angle, size ratio and kind of bed
+  std::vector<BedKind> beds{{}};
+  std::vector<double> speeds{30};           ///< [m/s]
+  std::vector<double> angles{M_PI / 12};    ///< [rad]
+  std::vector<double> size_ratios{1};       ///< grain that is fired over those of the bed
+  int impacts = 80;                 ///< of each speed, angle, size ratio and kind of bed
   ImpactRules rules;
   std::uint64_t seed = 1;
   bool calibrated = false;  ///< number of ejecta of the table: that of the coarse-sand experiment
