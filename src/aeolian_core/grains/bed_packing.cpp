@@ -179,16 +179,14 @@ Bed<Dim> make_bed(const BedRecipe& recipe, const GrainWorld<Dim>& bed_world, std
   GrainWorld<Dim> world = bed_world;
   enclose(world, recipe);
   GrainDynamics<Dim> grains = Bricklayer<Dim>(recipe, world, seed).lay();
-  if (recipe.packing == Packing::poured || recipe.packing == Packing::struck) {
-    GrainWorld<Dim> soft = world;
-    soft.law = softened(world.law, 5);
-    settle(grains, soft, recipe, 0.5);
-    if (recipe.packing == Packing::struck) {
-      strike_off(grains, recipe);
-      settle(grains, soft, recipe, 2);
-    }
+  GrainWorld<Dim> soft = world;
+  soft.law = softened(world.law, 5);
+  settle(grains, soft, recipe, 1);
+  if (recipe.packing == Packing::struck) {
+    strike_off(grains, recipe);
+    settle(grains, soft, recipe, 1);
   }
-  settle(grains, world, recipe, 2);
+  settle(grains, world, recipe, 4);
   grains.set_world(world);
   return settled_bed(std::move(grains), recipe);
 }

@@ -118,7 +118,7 @@ class GrainDynamics {
 
   double time() const;  ///< [s]
   /// One step, at most so long [s]; returns how long it was. Throws Error, and leaves all as it was, when two
-  /// grains overlap so much that no step can part them (by more than half of the smaller radius).
+  /// grains overlap so much that no step can part them (by more than the smaller radius).
   double step(double most = std::numeric_limits<double>::infinity());
   /// Steps until `duration` [s] later.
   void advance(double duration);
