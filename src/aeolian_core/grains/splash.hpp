@@ -23,12 +23,16 @@ struct Impact {
   double angle_to_bed() const { return angle + slope; }  ///< [rad]
 };
 
+/// Throws Error naming the property, its value and what is allowed: a speed that is positive and finite, an
+/// angle to the bed between 0 and pi, a slope steeper than neither way up, a positive size ratio.
+void check(const Impact& impact);
+
 /// Where a grain that leaves the bed came from (Werner 1987, ch. III).
 enum class Origin {
   rebound,     ///< it is the grain that hit
   target,      ///< the grain that was hit
   brink,       ///< beside a step that falls in the direction of flight
-  anti_brink,  ///< beside a step that rises
+  anti_brink,  ///< beside a step that rises in it
   other,
 };
 
@@ -70,15 +74,36 @@ class Ejection {
 class Splash {
  public:
   virtual ~Splash() = default;
-  /// Never more kinetic energy, nor more momentum along the flight, than the impact brought. Throws Error for
-  /// an impact whose speed is not positive and finite, or whose angle to the bed is not between 0 and pi.
-  virtual SplashEvent sample(const Impact& impact, RandomStream& random) const = 0;
+  /// Never more kinetic energy, nor more momentum along the path of the impact, than the impact brought.
+  /// Throws Error for an impact that check() refuses. `event` is overwritten; using one event again and again
+  /// saves its memory from being asked for each time.
+  void sample(const Impact& impact, RandomStream& random, SplashEvent& event) const {
+    check(impact);
+    draw(impact, random, event);
+  }
+  SplashEvent sample(const Impact& impact, RandomStream& random) const {
+    SplashEvent event;
+    sample(impact, random, event);
+    return event;
+  }
+  /// Mean number of grains that one impact ejects, before what energy and momentum forbid is left out.
+  virtual double mean_ejecta(const Impact& impact) const = 0;
+
+ private:
+  /// `impact` is valid; what `event` holds is of no use.
+  virtual void draw(const Impact& impact, RandomStream& random, SplashEvent& event) const = 0;
 };
 
 /// Mass of leaving grains and of the impacting one in terms of a bed grain's, and what they carry.
 /// @{
 double kinetic_energy(const SplashEvent& event);  ///< over the mass of a bed grain [m^2/s^2]
 double kinetic_energy(const Impact& impact);      ///< over the mass of a bed grain [m^2/s^2]
+/// @}
+
+/// Their momentum along the path of the impact, over the mass of a bed grain [m/s].
+/// @{
+double momentum_along(const Impact& impact, const SplashEvent& event);
+double momentum(const Impact& impact);
 /// @}
 
 /// Sum of the ballistic hops of an event's ejecta on a bed that rises by `slope` [rad] in the direction of

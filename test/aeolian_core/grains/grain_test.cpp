@@ -73,7 +73,9 @@ TEST(SplashTest, ejecta_are_proportional_to_speed) {
   EXPECT_DOUBLE_EQ(splash.ejecta_per_impact(grain, 2.78), 2 * splash.ejecta_per_impact(grain, 1.39));
 }
 
-TEST(SplashTest, reptation_is_25_diameters) { EXPECT_DOUBLE_EQ(MeanSplash{}.reptation_length(Grain{}), 0.00625); }
+TEST(SplashTest, reptation_is_25_diameters) {
+  EXPECT_DOUBLE_EQ(MeanSplash{}.reptation_length(Grain{}), 0.00625);
+}
 
 }  // namespace
 }  // namespace aeolian

@@ -1,0 +1,149 @@
+#include "aeolian_core/grains/draws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "aeolian_core/surface/error.hpp"
+
+namespace aeolian {
+namespace {
+
+double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
+double below(double z) { return std::erfc(-z / M_SQRT2) / 2; }
+
+/// Layers of equal area under exp(-x^2 / 2): from x[i + 1] to x[i], the lowest with the tail.
+struct Ziggurat {
+  static constexpr unsigned layers = 128;
+  static constexpr double tail = 3.442619855899;       // where it begins
+  static constexpr double area = 9.91256303526217e-3;  // of a layer
+  std::array<double, layers + 1> x;
+  std::array<double, layers> inside;  ///< x[i + 1] / x[i]
+
+  Ziggurat() {
+    double height = std::exp(-tail * tail / 2);
+    x[0] = area / height;
+    x[1] = tail;
+    x[layers] = 0;
+    for (unsigned i = 2; i < layers; ++i) {
+      x[i] = std::sqrt(-2 * std::log(area / x[i - 1] + height));
+      height = std::exp(-x[i] * x[i] / 2);
+    }
+    for (unsigned i = 0; i < layers; ++i) inside[i] = x[i + 1] / x[i];
+  }
+};
+const Ziggurat ziggurat;
+
+}  // namespace
+
+double draw_normal(RandomStream& random) {
+  for (;;) {
+    const double u = 2 * random.uniform() - 1;
+    const unsigned layer = random.bits() % Ziggurat::layers;
+    const double x = u * ziggurat.x[layer];
+    if (std::abs(u) < ziggurat.inside[layer]) return x;
+    if (layer == 0) {
+      for (;;) {
+        const double beyond = random.exponential() / Ziggurat::tail;
+        if (2 * random.exponential() > beyond * beyond) return std::copysign(Ziggurat::tail + beyond, u);
+      }
+    }
+    const double outer = std::exp((x * x - ziggurat.x[layer] * ziggurat.x[layer]) / 2);
+    const double inner = std::exp((x * x - ziggurat.x[layer + 1] * ziggurat.x[layer + 1]) / 2);
+    if (inner + random.uniform() * (outer - inner) < 1) return x;
+  }
+}
+
+int draw_poisson(double mean, RandomStream& random) {
+  constexpr double largest = 30;  // of one inversion: the sum of two such numbers is such a number
+  int count = 0;
+  for (; mean > largest; mean -= largest) count += draw_poisson(largest, random);
+  if (mean <= 0) return count;
+  double probability = std::exp(-mean);
+  double left = random.uniform() - probability;
+  for (int k = 1; left > 0 && probability > 1e-18; ++k) {
+    probability *= mean / k;
+    left -= probability;
+    ++count;
+  }
+  return count;
+}
+
+int draw_rounded(double mean, RandomStream& random) {
+  const double whole = std::floor(mean);
+  return static_cast<int>(whole) + (random.uniform() < mean - whole ? 1 : 0);
+}
+
+TruncatedNormal::TruncatedNormal(double mean, double deviation, double low, double high)
+    : middle_(mean), width_(deviation), low_(low), high_(high) {
+  // Moments of the cut distribution; middle and width follow theirs by what is missing until both agree.
+  for (int i = 0; i < 2000; ++i) {
+    const double a = (low - middle_) / width_;
+    const double b = (high - middle_) / width_;
+    const double share = below(b) - below(a);
+    const double shift = (density(a) - density(b)) / share;
+    const double variance = 1 + (a * density(a) - b * density(b)) / share - shift * shift;
+    const double mean_error = mean - (middle_ + width_ * shift);
+    const double ratio = deviation / (width_ * std::sqrt(variance));
+    if (std::abs(mean_error) < 1e-9 * deviation && std::abs(ratio - 1) < 1e-9) return;
+    if (!(share > 1e-3) || !std::isfinite(ratio)) break;
+    middle_ += mean_error;
+    width_ *= ratio;
+  }
+  throw Error("no normal distribution cut off at " + std::to_string(low) + " and " + std::to_string(high) +
+              " has mean " + std::to_string(mean) + " and deviation " + std::to_string(deviation));
+}
+
+double TruncatedNormal::draw(RandomStream& random) const {
+  for (;;) {
+    const double value = middle_ + width_ * draw_normal(random);
+    if (value >= low_ && value <= high_) return value;
+  }
+}
+
+LogNormal::LogNormal(double mean, double deviation) {
+  const double square = std::log1p(deviation * deviation / (mean * mean));
+  width_ = std::sqrt(square);
+  middle_ = std::log(mean) - square / 2;
+}
+
+double LogNormal::at(double z) const { return std::exp(middle_ + width_ * z); }
+
+CountDistribution::CountDistribution(double mean, double deviation) {
+  const double variance = deviation * deviation;
+  const bool tight = variance < mean;
+  const double trials =
+      tight ? std::ceil(mean * mean / (mean - variance)) : mean * mean / std::max(variance - mean, 1e-6);
+  const double chance = tight ? mean / trials : mean / (trials + mean);
+  double probability = std::pow(1 - chance, trials);
+  double sum = 0;
+  for (int k = 0; sum < 1 - 1e-10 && k < 1000; ++k) {
+    sum += probability;
+    up_to_.push_back(sum);
+    probability *= tight ? (trials - k) / (k + 1) * chance / (1 - chance) : (trials + k) / (k + 1) * chance;
+  }
+}
+
+int CountDistribution::draw(RandomStream& random) const {
+  const double u = random.uniform();
+  std::size_t count = 0;
+  while (count + 1 < up_to_.size() && u > up_to_[count]) ++count;
+  return static_cast<int>(count);
+}
+
+double draw_normal_above(double low, RandomStream& random) {
+  if (low <= 0) {
+    for (;;) {
+      const double z = draw_normal(random);
+      if (z > low) return z;
+    }
+  }
+  const double rate = (low + std::sqrt(low * low + 4)) / 2;
+  for (;;) {
+    const double z = low + random.exponential() / rate;
+    if (random.uniform() < std::exp(-(z - rate) * (z - rate) / 2)) return z;
+  }
+}
+
+}  // namespace aeolian
