@@ -14,6 +14,7 @@
 #include "aeolian_twin/splash/progress_bar.hpp"
 #include "aeolian_twin/splash/study_files.hpp"
 #include "aeolian_twin/splash/study_plots.hpp"
+#include "aeolian_twin/splash/study_table.hpp"
 #include "aeolian_twin/tools/program.hpp"
 
 namespace aeolian {
@@ -60,7 +61,7 @@ void write_pictures(const StudySettings& study, const StudyBeds<Dim>& beds, cons
 }
 
 template <int Dim>
-int run_study(const StudySettings& study, const std::string& out) {
+int run_study(const StudySettings& study, const std::string& command, const std::string& out) {
   make_directory(out);
   StudyBeds<Dim> beds;
   std::vector<StudyPoint> points;
@@ -83,6 +84,7 @@ int run_study(const StudySettings& study, const std::string& out) {
   write_ejecta_csv(points, out + "/ejecta.csv");
   write_summary_csv(study, points, out + "/summary.csv");
   for (const StudyPoint& point : points) print_point(point);
+  if (done == all) study_table(study, points, command).write(out + "/splash_table.csv");
   write_pictures(study, beds, points, out);
   if (done < all) {
     fmt::print(stderr, "splash_study: stopped; {} of {} impacts are done and written to {}\n", done, all, out);
@@ -98,8 +100,8 @@ constexpr const char* description =
     splash_study [--config config/splash/werner_case_a.yaml] [--speed M_S] [--angle DEG] [--impacts N] [--seed S] --out DIR
 
 Written to DIR: summary.csv (means, half-widths, standard errors, beside the thesis' numbers), events.csv (a row an
-impact), ejecta.csv (a row a grain), beds.csv, histograms.svg (or trends.svg for a grid of speeds and angles), and one
-impact to look at: impact.webp moves, impact.png has its frames. Without --config it is the thesis' CASE A.
+impact), ejecta.csv (a row a grain), beds.csv, splash_table.csv (for the saltation model), histograms.svg (or trends.svg
+for a grid of speeds and angles), and one impact to look at: impact.webp moves, impact.png has its frames. Without --config it is the thesis' CASE A.
 Ctrl-C keeps what is done. docs/splash_study.md explains configs and results.)";
 
 int run(int argc, char** argv) {
@@ -129,9 +131,11 @@ int run(int argc, char** argv) {
   if (impacts_option->count() > 0) study.impacts = impacts;
   study.filmed = std::min(study.filmed, study.impacts - 1);
   study.seed = seed;
+  std::string command = "rosrun aeolian_twin splash_study";
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
   std::signal(SIGINT, [](int) { stop = true; });
   std::signal(SIGTERM, [](int) { stop = true; });
-  return study.dimensions == 2 ? run_study<2>(study, out) : run_study<3>(study, out);
+  return study.dimensions == 2 ? run_study<2>(study, command, out) : run_study<3>(study, command, out);
 }
 
 }  // namespace
