@@ -33,7 +33,7 @@ void ContactList<Dim>::assign(const std::vector<NearPair<Dim>>& pairs, int slots
         push(*pair, loads_++);
       }
     }
-    while (first_.size() % lane_count != 0) push({0, 0}, 0);
+    while (first_.size() % lane_count != 0) push({first_.back(), 0}, first_.back());
     begin_.push_back(static_cast<int>(first_.size()));
   }
 
@@ -49,7 +49,7 @@ std::vector<NearPair<Dim>> ContactList<Dim>::pairs() const {
   std::vector<NearPair<Dim>> pairs;
   pairs.reserve(first_.size());
   for (std::size_t at = 0; at < first_.size(); ++at) {
-    if (first_[at] == second_[at]) continue;
+    if (second_[at] == 0) continue;
     NearPair<Dim> pair{first_[at], second_[at]};
     for (int d = 0; d < slip_size<Dim>; ++d) pair.slip[d] = slip_[d][at];
     pairs.push_back(pair);

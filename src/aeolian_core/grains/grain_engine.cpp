@@ -1,6 +1,7 @@
 #include "aeolian_core/grains/grain_engine.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 
@@ -42,6 +43,7 @@ template <int Dim>
 GrainDynamics<Dim>::Engine::Engine(const GrainWorld<Dim>& world)
     : world_(valid(world)), law_(world.law), near_(infinite_where_none<Dim>(world.period)) {
   records_[0].value[Record::inverse_mass] = 1;
+  records_[0].value[Record::place] = 1e150;
 }
 
 template <int Dim>
@@ -57,7 +59,15 @@ void GrainDynamics<Dim>::Engine::set_world(const GrainWorld<Dim>& world) {
   law_ = LawConstants(world.law);
   for (const int grain : numbers_) set_mass(records_[slot_of(grain)]);
   list_walls_again_ = true;
+  wake_all();
   ready_ = false;
+}
+
+template <int Dim>
+void GrainDynamics<Dim>::Engine::set_threads(int threads) {
+  if (threads < 0)
+    throw Error("grain dynamics: threads are " + std::to_string(threads) + ", must be zero or positive");
+  crew_.set_threads(threads);
 }
 
 template <int Dim>
@@ -83,6 +93,8 @@ int GrainDynamics<Dim>::Engine::add(const Vector<Dim>& position, double radius, 
   slot_.push_back(slot);
   records_.push_back(record);
   number_.push_back(number);
+  sleepers_.emplace_back();
+  rest_.push_back(0);
   numbers_.push_back(number);
   unlisted_.push_back(slot);
   ready_ = false;
@@ -101,8 +113,10 @@ void GrainDynamics<Dim>::Engine::remove(int grain) {
 
 template <int Dim>
 void GrainDynamics<Dim>::Engine::set_motion(int grain, const Vector<Dim>& velocity, const Spin<Dim>& spin) {
-  Record& record = records_[slot_of(grain)];
+  const std::size_t slot = slot_of(grain);
+  Record& record = records_[slot];
   require_valid_grain<Dim>(world_, position(grain), radius(grain), velocity, spin);
+  if (sleepers_[slot].asleep) wake({static_cast<int>(slot)});
   set_values<Dim>(record, Record::velocity, velocity);
   std::copy_n(spin.data(), Record::turns, record.value + Record::spin);
   ready_ = false;
@@ -159,12 +173,13 @@ void GrainDynamics<Dim>::Engine::advance(double duration) {
 template <int Dim>
 void GrainDynamics<Dim>::Engine::make_step(double dt) {
   for (Wall<Dim>& wall : world_.walls) aeolian::move(wall, dt);
-  move(dt);
+  const bool moved = move(dt);
   time_ += dt;
   grain_steps_ += awake_.size();
-  list_moved(dt);
+  list_moved(dt, moved);
   find_forces(dt);
   kick(dt);
+  lull();
 }
 
 template <int Dim>
@@ -172,79 +187,87 @@ double GrainDynamics<Dim>::Engine::natural_step() const {
   return time_step(world_.law, world_.steps_per_contact, world_.drag, inputs_);
 }
 
+/// Whether a grain has used up its skin.
 template <int Dim>
-void GrainDynamics<Dim>::Engine::move(double dt) {
-  for (const int slot : awake_) {
-    double* const value = records_[static_cast<std::size_t>(slot)].value;
-    for (int d = 0; d < Dim; ++d) {
-      value[Record::velocity + d] += dt / 2 * value[Record::acceleration + d];
-      value[Record::place + d] += dt * value[Record::velocity + d];
-    }
-    for (int d = 0; d < Record::turns; ++d) value[Record::spin + d] += dt / 2 * value[Record::turning + d];
-  }
+bool GrainDynamics<Dim>::Engine::move(double dt) {
+  std::atomic<bool> moved = false;
+  crew_.share(contacts_.chunks(), [&](int chunk) {
+    const auto c = static_cast<std::size_t>(chunk);
+    if (move_grains(records_.data(), near_.anchors(), awake_.data() + awake_begin_[c],
+                    awake_begin_[c + 1] - awake_begin_[c], dt))
+      moved = true;
+  });
+  return moved;
 }
 
 template <int Dim>
 void GrainDynamics<Dim>::Engine::find_forces(double dt) {
-  squeeze_ = {};
-  if (loads_.size() < static_cast<std::size_t>(contacts_.loads()))
-    loads_.resize(static_cast<std::size_t>(contacts_.loads()));
   PairWork<Dim> work{
       law_, {},           dt, records_.data(), contacts_.first(), contacts_.second(), contacts_.target(),
       {},   loads_.data()};
-  const auto period = infinite_where_none<Dim>(world_.period);
-  std::copy(period.begin(), period.end(), work.period);
+  std::copy_n(near_.period().begin(), Dim, work.period);
   for (int d = 0; d < slip_size<Dim>; ++d) work.slip[d] = contacts_.slip(d);
-  for (int chunk = 0; chunk < contacts_.chunks(); ++chunk)
-    add_pair_forces(work, contacts_.begin(chunk), contacts_.end(chunk), squeeze_);
+  std::vector<Squeeze> squeezes(static_cast<std::size_t>(contacts_.chunks()));
+  crew_.share(contacts_.chunks(), [&](int chunk) {
+    const auto c = static_cast<std::size_t>(chunk);
+    add_pair_forces(work, contacts_.begin(chunk), contacts_.end(chunk), squeezes[c]);
+    add_wall_forces(wall_begin_[c], wall_begin_[c + 1], dt, squeezes[c]);
+  });
+  squeeze_ = {};
+  for (const Squeeze& squeeze : squeezes) {
+    squeeze_.overlap = std::max(squeeze_.overlap, squeeze.overlap);
+    squeeze_.excess = std::max(squeeze_.excess, squeeze.excess);
+  }
+}
 
-  for (WallContact<Dim>& contact : wall_contacts_) {
+template <int Dim>
+void GrainDynamics<Dim>::Engine::add_wall_forces(int begin, int end, double dt, Squeeze& squeeze) {
+  for (int at = begin; at < end; ++at) {
+    WallContact<Dim>& contact = wall_contacts_[static_cast<std::size_t>(at)];
+    if (sleeps(contact.grain)) continue;
     const auto slot = static_cast<std::size_t>(contact.grain);
     const WallForce<Dim> force = wall_force(law_, dt, world_.walls[static_cast<std::size_t>(contact.wall)],
                                             records_[slot], contact.slip);
     if (!force.touching) continue;
     for (int k = 0; k < 4 * Load::packs; ++k) loads_[slot].value[k] += force.load.value[k];
-    squeeze_.overlap = std::max(squeeze_.overlap, force.overlap);
-    squeeze_.excess = std::max(squeeze_.excess, force.overlap - records_[slot].value[Record::radius]);
+    squeeze.overlap = std::max(squeeze.overlap, force.overlap);
+    squeeze.excess = std::max(squeeze.excess, force.overlap - records_[slot].value[Record::radius]);
   }
 }
 
 template <int Dim>
 void GrainDynamics<Dim>::Engine::kick(double dt) {
-  for (int chunk = 0; chunk < contacts_.chunks(); ++chunk)
+  KickWork<Dim> work{records_.data(), loads_.data(), rest_.data(), dt, {}, world_.drag, world_.sleep.speed};
+  std::copy_n(world_.acceleration.data(), Dim, work.gravity);
+  const auto chunks = static_cast<std::size_t>(contacts_.chunks());
+  std::vector<Liveliest> liveliest(chunks);
+  std::vector<std::vector<int>> restless(chunks);
+  crew_.share(contacts_.chunks(), [&](int chunk) {
     for (auto fetch = contacts_.fetch_begin(chunk); fetch != contacts_.fetch_end(chunk); ++fetch) {
       Load& from = loads_[static_cast<std::size_t>(fetch->load)];
       Load& to = loads_[static_cast<std::size_t>(fetch->slot)];
       for (int k = 0; k < 4 * Load::packs; ++k) to.value[k] += from.value[k];
       from = Load();
     }
-  double speeds = 0, accelerations = 0;  // largest, squared
-  for (const int slot : awake_) {
-    double* const value = records_[static_cast<std::size_t>(slot)].value;
-    Load& load = loads_[static_cast<std::size_t>(slot)];
-    double speed = 0, acceleration = 0;
-    const auto push = [&](int velocity, int rate, double pushed) {
-      const double predicted = value[velocity] + dt / 2 * value[rate];
-      value[rate] = pushed - world_.drag * predicted;
-      value[velocity] += dt / 2 * value[rate];
-    };
-    for (int d = 0; d < Dim; ++d) {
-      push(Record::velocity + d, Record::acceleration + d,
-           load.value[d] * value[Record::inverse_mass] + world_.acceleration[d]);
-      speed += value[Record::velocity + d] * value[Record::velocity + d];
-      acceleration += value[Record::acceleration + d] * value[Record::acceleration + d];
-    }
-    for (int d = 0; d < Record::turns; ++d)
-      push(Record::spin + d, Record::turning + d,
-           load.value[Load::torque + d] * value[Record::inverse_inertia]);
-    speeds = std::max(speeds, speed);
-    accelerations = std::max(accelerations, acceleration);
-    load = Load();
+    const auto c = static_cast<std::size_t>(chunk);
+    kick_grains(work, awake_.data() + awake_begin_[c], awake_begin_[c + 1] - awake_begin_[c], liveliest[c]);
+    watch(chunk, dt, restless[c]);
+  });
+
+  double speeds = 0, accelerations = 0;
+  for (const Liveliest& of_chunk : liveliest) {
+    speeds = std::max(speeds, of_chunk.speed);
+    accelerations = std::max(accelerations, of_chunk.acceleration);
   }
   for (const Wall<Dim>& wall : world_.walls) speeds = std::max(speeds, wall.velocity.squaredNorm());
   inputs_.speed = std::sqrt(speeds);
   inputs_.acceleration = std::sqrt(accelerations);
   inputs_.overlap = squeeze_.overlap;
+
+  std::vector<int> woken;
+  for (const std::vector<int>& of_chunk : restless)
+    woken.insert(woken.end(), of_chunk.begin(), of_chunk.end());
+  if (!woken.empty()) wake(woken);
 }
 
 template class GrainDynamics<2>::Engine;

@@ -17,13 +17,13 @@ template <int Dim>
 void GrainDynamics<Dim>::Engine::prepare() {
   if (ready_) return;
   measure();
+  if (!removed_.empty()) drop_removed();
   if (sort_again_ || unlisted_.size() * 8 > records_.size() || listed_since_sort_ > 4 * records_.size())
     sort();
-  if (!removed_.empty() || !unlisted_.empty() || list_walls_again_) {
+  if (!unlisted_.empty() || list_walls_again_) {
     std::sort(unlisted_.begin(), unlisted_.end());
     list(unlisted_, contacts_.pairs(), std::min(natural_step(), 1.0));
     unlisted_.clear();
-    removed_.clear();
   }
   find_forces(0);
   kick(0);
@@ -54,6 +54,8 @@ void GrainDynamics<Dim>::Engine::sort() {
   std::vector<int> fresh(records_.size(), 0);
   std::vector<Record> records(1, records_[0]);
   std::vector<int> numbers(1, -1);
+  std::vector<Sleeper> sleepers(1);
+  std::vector<double> rest(1, 0);
   for (const int slot : near_.order(records_)) {
     const auto s = static_cast<std::size_t>(slot);
     if (number_[s] < 0) continue;
@@ -62,12 +64,16 @@ void GrainDynamics<Dim>::Engine::sort() {
     slot_[static_cast<std::size_t>(number_[s])] = place;
     records.push_back(records_[s]);
     numbers.push_back(number_[s]);
+    sleepers.push_back(sleepers_[s]);
+    rest.push_back(rest_[s]);
   }
   records_.swap(records);
   number_.swap(numbers);
+  sleepers_.swap(sleepers);
+  rest_.swap(rest);
 
   std::vector<NearPair<Dim>> pairs;
-  for (NearPair<Dim> pair : contacts_.pairs()) {
+  for (NearPair<Dim> pair : all_pairs()) {
     pair.first = fresh[static_cast<std::size_t>(pair.first)];
     pair.second = fresh[static_cast<std::size_t>(pair.second)];
     if (pair.first == 0 || pair.second == 0) continue;
@@ -81,6 +87,7 @@ void GrainDynamics<Dim>::Engine::sort() {
   }
   std::sort(pairs.begin(), pairs.end());
   contacts_.assign(pairs, static_cast<int>(records_.size()));
+  resting_.clear();
 
   std::vector<WallContact<Dim>> wall_contacts;
   for (WallContact<Dim> contact : wall_contacts_) {
@@ -96,7 +103,7 @@ void GrainDynamics<Dim>::Engine::sort() {
   removed_.clear();
   listed_since_sort_ = 0;
   sort_again_ = false;
-  loads_.clear();
+  loads_.assign(records_.size(), {});
 }
 
 /// New anchors and all pairs of some slots, ascending; `pairs` are those that were listed.
@@ -115,33 +122,61 @@ void GrainDynamics<Dim>::Engine::list(const std::vector<int>& slots, std::vector
     const double speed = Eigen::Map<const Vector<Dim>>(record.value + Record::velocity).norm();
     skins.push_back(near_.skin(record.value[Record::radius], speed, steps_per_skin * dt));
   }
-  const auto gone = [this](int slot) { return number_[static_cast<std::size_t>(slot)] < 0; };
-  if (!removed_.empty()) {
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                               [&](const auto& pair) { return gone(pair.first) || gone(pair.second); }),
-                pairs.end());
-    wall_contacts_.erase(std::remove_if(wall_contacts_.begin(), wall_contacts_.end(),
-                                        [&](const auto& contact) { return gone(contact.grain); }),
-                         wall_contacts_.end());
-    for (const int slot : removed_) near_.forget(slot);
-  }
   near_.look_at(slots, skins, records_, pairs);
+  // After a sort the list is a whole one, with the pairs that sleep.
+  const auto asleep = std::stable_partition(pairs.begin(), pairs.end(), [this](const auto& pair) {
+    return !sleeps(pair.first) || !sleeps(pair.second);
+  });
+  if (asleep != pairs.end()) resting_.assign(asleep, pairs.end());
+  pairs.erase(asleep, pairs.end());
   contacts_.assign(pairs, static_cast<int>(records_.size()));
   listed_since_sort_ += slots.size();
-
-  awake_.clear();
-  for (std::size_t slot = 1; slot < records_.size(); ++slot)
-    if (number_[slot] >= 0) awake_.push_back(static_cast<int>(slot));
   if (list_walls_again_) {
     wall_way_.assign(world_.walls.size(), 0);
     wall_skin_.clear();
     for (const Wall<Dim>& wall : world_.walls)
       wall_skin_.push_back(near_.skin(inputs_.least_radius, wall.velocity.norm(), steps_per_skin * dt));
-    list_walls(awake_);
+    std::vector<int> all;
+    for (std::size_t slot = 1; slot < records_.size(); ++slot)
+      if (number_[slot] >= 0) all.push_back(static_cast<int>(slot));
+    list_walls(all);
     list_walls_again_ = false;
-  } else if (!slots.empty()) {
+  } else {
     list_walls(slots);
   }
+  divide_work();
+}
+
+/// Takes removed grains out of the lists and wakes those that slept on them.
+template <int Dim>
+void GrainDynamics<Dim>::Engine::drop_removed() {
+  const auto gone = [this](int slot) { return number_[static_cast<std::size_t>(slot)] < 0; };
+  const auto pair_gone = [&](const NearPair<Dim>& pair) { return gone(pair.first) || gone(pair.second); };
+  std::vector<int> left;
+  for (const NearPair<Dim>& pair : resting_)
+    if (pair_gone(pair)) {
+      if (!gone(pair.first)) left.push_back(pair.first);
+      if (!gone(pair.second)) left.push_back(pair.second);
+    }
+  std::vector<NearPair<Dim>> pairs = contacts_.pairs();
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), pair_gone), pairs.end());
+  contacts_.assign(pairs, static_cast<int>(records_.size()));
+  resting_.erase(std::remove_if(resting_.begin(), resting_.end(), pair_gone), resting_.end());
+  wall_contacts_.erase(std::remove_if(wall_contacts_.begin(), wall_contacts_.end(),
+                                      [&](const auto& contact) { return gone(contact.grain); }),
+                       wall_contacts_.end());
+  for (const int slot : removed_) near_.forget(slot);
+  removed_.clear();
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  wake(left);
+}
+
+template <int Dim>
+std::vector<NearPair<Dim>> GrainDynamics<Dim>::Engine::all_pairs() const {
+  std::vector<NearPair<Dim>> pairs = contacts_.pairs();
+  pairs.insert(pairs.end(), resting_.begin(), resting_.end());
+  return pairs;
 }
 
 template <int Dim>
@@ -174,7 +209,7 @@ void GrainDynamics<Dim>::Engine::list_walls(const std::vector<int>& slots) {
 
 /// Looks again at the grains that have used up their skins, if any.
 template <int Dim>
-void GrainDynamics<Dim>::Engine::list_moved(double dt) {
+void GrainDynamics<Dim>::Engine::list_moved(double dt, bool moved) {
   const auto way_squared = [this](int slot) {
     const auto& anchor = near_.anchor(slot);
     const double* const place = records_[static_cast<std::size_t>(slot)].value + Record::place;
@@ -187,8 +222,6 @@ void GrainDynamics<Dim>::Engine::list_moved(double dt) {
     wall_way_[w] += dt * world_.walls[w].velocity.norm();
     walls_moved = walls_moved || wall_way_[w] > wall_skin_[w];
   }
-  const bool moved =
-      std::any_of(awake_.begin(), awake_.end(), [&](int slot) { return way_squared(slot) > 1; });
   if (!moved && !walls_moved) return;
   list_walls_again_ = list_walls_again_ || walls_moved;
   if (moved && listed_since_sort_ > 4 * records_.size()) {

@@ -33,7 +33,7 @@ template <int Dim>
 std::vector<GrainContact<Dim>> GrainDynamics<Dim>::Engine::contacts(int grain) const {
   std::vector<GrainContact<Dim>> out;
   const int only = grain < 0 ? -1 : static_cast<int>(slot_of(grain));
-  for (NearPair<Dim> pair : contacts_.pairs()) {
+  for (NearPair<Dim> pair : all_pairs()) {
     if (only >= 0 && pair.first != only && pair.second != only) continue;
     const auto number = [this](int slot) { return number_[static_cast<std::size_t>(slot)]; };
     // By ascending numbers, whatever the slots.
@@ -69,6 +69,12 @@ std::vector<GrainContact<Dim>> GrainDynamics<Dim>::Engine::contacts(int grain) c
 }
 
 template <int Dim>
+std::size_t GrainDynamics<Dim>::Engine::awake() const {
+  return static_cast<std::size_t>(std::count_if(
+      numbers_.begin(), numbers_.end(), [this](int grain) { return !sleepers_[slot_of(grain)].asleep; }));
+}
+
+template <int Dim>
 double GrainDynamics<Dim>::Engine::kinetic_energy() const {
   double energy = 0;
   for (const int grain : numbers_) {
@@ -86,7 +92,7 @@ double GrainDynamics<Dim>::Engine::potential_energy() const {
   double energy = 0;
   for (const int grain : numbers_)
     energy -= world_.acceleration.dot(position(grain)) / record(grain).value[Record::inverse_mass];
-  for (const NearPair<Dim>& pair : contacts_.pairs()) {
+  for (const NearPair<Dim>& pair : all_pairs()) {
     PairMeeting<Dim, double> meeting;
     if (meets<Dim>(records_[static_cast<std::size_t>(pair.first)],
                    records_[static_cast<std::size_t>(pair.second)], near_.period(), meeting))

@@ -39,7 +39,7 @@ void NearList<Dim>::restart(const std::vector<GrainRecord<Dim>>& grains) {
   if (grains.size() < 2) low.fill(0), high.fill(0), sum = 1;
   const double mean = sum / static_cast<double>(std::max<std::size_t>(grains.size() - 1, 1));
   cells_.cover(low, high, period_, cell_in_radii * mean, grains.size());
-  anchors_.assign(grains.size(), {{}, -1});
+  anchors_.assign(grains.size(), {});
   looked_at_.assign(grains.size(), 0);
 }
 
@@ -81,7 +81,7 @@ bool NearList<Dim>::near(int slot, int other, const std::vector<GrainRecord<Dim>
 template <int Dim>
 void NearList<Dim>::look_at(const std::vector<int>& slots, const std::vector<double>& skins,
                             const std::vector<GrainRecord<Dim>>& grains, std::vector<NearPair<Dim>>& pairs) {
-  anchors_.resize(grains.size(), {{}, -1});
+  anchors_.resize(grains.size());
   looked_at_.resize(grains.size(), 0);
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const auto slot = static_cast<std::size_t>(slots[k]);

@@ -5,6 +5,7 @@
 
 #include "aeolian_core/grains/cell_grid.hpp"
 #include "aeolian_core/grains/contact_list.hpp"
+#include "aeolian_core/grains/grain_motion.hpp"
 #include "aeolian_core/grains/grain_record.hpp"
 
 namespace aeolian {
@@ -19,11 +20,6 @@ template <int Dim>
 class NearList {
  public:
   using Place = std::array<double, Dim>;
-  struct alignas(32) Anchor {
-    double place[Dim];
-    double skin;  ///< negative: not listed
-  };
-
   explicit NearList(const Place& period) : period_(period) {}
 
   /// Forgets everything and starts with a new order of slots.
@@ -39,6 +35,7 @@ class NearList {
   void forget(int slot);
 
   const Place& period() const { return period_; }
+  const Anchor* anchors() const { return anchors_.data(); }
   const Anchor& anchor(int slot) const { return anchors_[static_cast<std::size_t>(slot)]; }
   /// Slots by ascending cell.
   std::vector<int> order(const std::vector<GrainRecord<Dim>>& grains) const;

@@ -6,15 +6,13 @@
 namespace aeolian {
 namespace {
 
-/// Four records as columns.
+/// One pack of four records as columns.
 template <int Dim>
-AEOLIAN_INLINE void gather(const GrainRecord<Dim>* grains, const int* numbers, Lanes* columns) {
-  for (int pack = 0; pack < GrainRecord<Dim>::packs; ++pack) {
-    Lanes* column = columns + 4 * pack;
-    for (int lane = 0; lane < lane_count; ++lane)
-      column[lane] = load_lanes(grains[numbers[lane]].value + 4 * pack);
-    transpose(column[0], column[1], column[2], column[3]);
-  }
+AEOLIAN_INLINE void gather(const GrainRecord<Dim>* grains, const int* numbers, int pack, Lanes* columns) {
+  Lanes* const column = columns + 4 * pack;
+  for (int lane = 0; lane < lane_count; ++lane)
+    column[lane] = load_lanes(grains[numbers[lane]].value + 4 * pack);
+  transpose(column[0], column[1], column[2], column[3]);
 }
 
 /// Adds a pack of each of four columns to the loads that `targets` name.
@@ -36,14 +34,18 @@ AEOLIAN_INLINE void add_forces(const PairWork<Dim>& work, int begin, int end, Sq
   Lanes excess_most = constant<Lanes>(squeeze.excess);
   for (int at = begin; at < end; at += lane_count) {
     Lanes first[4 * Record::packs], second[4 * Record::packs];
-    gather(work.grains, work.first + at, first);
-    gather(work.grains, work.second + at, second);
+    gather(work.grains, work.first + at, 0, first);
+    gather(work.grains, work.second + at, 0, second);
     PairMeeting<Dim, Lanes> pair;
     pair.place(first, second, work.period);
     const auto touching = pair.meeting.overlap > 0;
     if (!(touching[0] | touching[1] | touching[2] | touching[3])) {
       for (int d = 0; d < slips; ++d) store_lanes(work.slip[d] + at, Lanes{});
       continue;
+    }
+    for (int pack = 1; pack < Record::packs; ++pack) {
+      gather(work.grains, work.first + at, pack, first);
+      gather(work.grains, work.second + at, pack, second);
     }
     overlap_most = larger(overlap_most, pair.meeting.overlap);
     excess_most = larger(excess_most, pair.meeting.overlap - pair.smaller_radius);
