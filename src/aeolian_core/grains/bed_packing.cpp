@@ -24,6 +24,7 @@ void require_valid(const BedRecipe& recipe, int dimensions) {
   require(recipe.size_spread >= 0 && recipe.size_spread <= 0.5, "size_spread", recipe.size_spread, "0 to 0.5");
   require(recipe.grains >= 1 && recipe.grains <= 10000000, "grains", recipe.grains, "1 to 10000000");
   require(recipe.length >= 8 * recipe.radius, "length", recipe.length, "at least 4 diameters");
+  require(recipe.pits >= 0 && recipe.pits <= 0.5, "pits", recipe.pits, "0 to 0.5");
   require(recipe.calm > 0, "calm", recipe.calm, "positive");
   if (dimensions == 3) require(recipe.width >= 8 * recipe.radius, "width", recipe.width, "at least 4 diameters");
   if (dimensions == 3 && (recipe.packing == Packing::loose || recipe.packing == Packing::dense))
@@ -69,7 +70,7 @@ class Bricklayer {
     return std::move(grains_);
   }
 
-  /// Rows of 33 in the thesis' box; what is left lies on top as a plateau that begins 12 radii before the
+  /// Rows of 33 in the thesis' box; what is left lies on top as a plateau that begins 20 radii before the
   /// middle.
   GrainDynamics<Dim> lay_hexagons() {
     const double r = recipe_.radius;
@@ -77,7 +78,7 @@ class Bricklayer {
     const int columns = static_cast<int>((recipe_.length - r) / pitch);
     const int rows = recipe_.grains / columns;
     const double left = 0.5 * (recipe_.length - (columns + 0.5) * pitch);
-    const int plateau = std::max(0, static_cast<int>((0.5 * recipe_.length - 12 * r - left) / pitch));
+    const int plateau = std::max(0, static_cast<int>((0.5 * recipe_.length - 20 * r - left) / pitch));
     for (int i = 0; i < recipe_.grains; ++i) {
       const int row = i / columns;
       int column = i % columns;
@@ -112,18 +113,28 @@ class Bricklayer {
   GrainDynamics<Dim> grains_;
 };
 
+/// Between a floor and walls so high [m], or where the bed begins anew.
 template <int Dim>
-void enclose(GrainWorld<Dim>& world, const BedRecipe& recipe) {
+void enclose(GrainWorld<Dim>& world, const BedRecipe& recipe, double left_high, double right_high) {
   world.period = Vector<Dim>::Zero();
   if constexpr (Dim == 2) {
-    const double high = 1000 * recipe.length;
     const Vector<2> left(0, 0);
     const Vector<2> right(recipe.length, 0);
-    world.walls = {{left, right}, {left, {0, high}}, {right, {recipe.length, high}}};
+    world.walls = {{left, right}, {left, {0, left_high}}, {right, {recipe.length, right_high}}};
   } else {
     world.walls = {{Vector<3>::Zero(), Vector<3>::UnitZ()}};
     world.period = {recipe.length, recipe.width, 0};
   }
+}
+
+/// Of the highest grain that is nearer to a wall than its own radius and a half.
+template <int Dim>
+double height_beside(const GrainDynamics<Dim>& grains, double wall) {
+  double height = 0;
+  for (const int grain : grains.numbers())
+    if (std::abs(grains.position(grain).x() - wall) < 1.5 * grains.radius(grain))
+      height = std::max(height, grains.position(grain)[Dim - 1]);
+  return height;
 }
 
 /// Lets all come to rest under a drag that leaves a fall its speed at first and ends a creep.
@@ -164,6 +175,16 @@ void strike_off(GrainDynamics<Dim>& grains, const BedRecipe& recipe) {
     if (grains.position(grain)[Dim - 1] > level) grains.remove(grain);
 }
 
+/// Makes holes as impacts do: each has a brink and an anti-brink.
+template <int Dim>
+void take_out(GrainDynamics<Dim>& grains, const BedRecipe& recipe, std::uint64_t seed) {
+  const BedSurface surface(grains, recipe.radius, recipe.length, recipe.width);
+  RandomStream random(seed, 1);
+  const std::vector<int> numbers = grains.numbers();
+  for (const int grain : numbers)
+    if (surface.layer(grain) == 1 && random.uniform() < recipe.pits) grains.remove(grain);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -177,7 +198,7 @@ template <int Dim>
 Bed<Dim> make_bed(const BedRecipe& recipe, const GrainWorld<Dim>& bed_world, std::uint64_t seed) {
   require_valid(recipe, Dim);
   GrainWorld<Dim> world = bed_world;
-  enclose(world, recipe);
+  enclose(world, recipe, 1000 * recipe.length, 1000 * recipe.length);
   GrainDynamics<Dim> grains = Bricklayer<Dim>(recipe, world, seed).lay();
   GrainWorld<Dim> soft = world;
   soft.law = softened(world.law, 5);
@@ -186,7 +207,13 @@ Bed<Dim> make_bed(const BedRecipe& recipe, const GrainWorld<Dim>& bed_world, std
     strike_off(grains, recipe);
     settle(grains, soft, recipe, 1);
   }
+  if (recipe.pits > 0) {
+    take_out(grains, recipe, seed);
+    settle(grains, soft, recipe, 1);
+  }
   settle(grains, world, recipe, 4);
+  // The box is open: its walls end where the bed does, and nothing that flies away meets them.
+  enclose(world, recipe, height_beside(grains, 0), height_beside(grains, recipe.length));
   grains.set_world(world);
   return settled_bed(std::move(grains), recipe);
 }

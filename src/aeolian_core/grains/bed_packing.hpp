@@ -19,7 +19,8 @@ struct BedRecipe {
   Packing packing = Packing::loose;
   double radius = 0.01;     ///< mean [m]
   double size_spread = 0;   ///< standard deviation of the radii over their mean, log-normal, cut at two; 0 to 0.5
-  int grains = 384;         ///< laid; those struck off are missing from the bed
+  int grains = 375;         ///< laid; those struck off or taken out are missing from the bed
+  double pits = 0;          ///< share of the surface's grains that are taken out at random, 0 to 0.5
   double length = 0.673;    ///< along the flight, between walls for discs, periodic for spheres [m]
   double width = 0;         ///< across the flight, periodic, spheres only [m]
   double calm = 1e-6;       ///< settled when the mean kinetic energy of a grain is below so many m g d

@@ -131,7 +131,7 @@ BedSurface::BedSurface(const GrainDynamics<Dim>& grains, double radius, double l
       // In three dimensions a grain's own section tells which side of a step it is on.
       const auto mark = [&](std::size_t i, Origin origin) {
         const auto grain = static_cast<std::size_t>(chain[i].grain);
-        if (sections.distance_across(chain[i].index, y) <= 0.5 * sections.spacing() || Dim == 2)
+        if (sections.distance_across(chain[i].index, y) <= 0.501 * sections.spacing() || Dim == 2)
           steps_[grain] = origin;
       };
       const std::size_t n = chain.size();
