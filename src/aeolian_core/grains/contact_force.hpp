@@ -51,7 +51,8 @@ AEOLIAN_INLINE void answer(const LawConstants& law, double dt, const Meeting<Dim
                            Answer<Dim, Real>& out) {
   const Real parting = dot<Dim>(m.velocity, m.normal);
   const Real parting_midway = dot<Dim>(m.midway, m.normal);
-  const Real passage = m.overlap / (size_of(parting_midway) * dt);
+  constexpr double tiny = 1e-300;  // keeps the quotient positive at rest
+  const Real passage = m.overlap / (size_of(parting_midway) * dt + tiny);
   const Real share = 0.5 + (passage < 1 ? passage : 0.5);
 
   Real stiffness, damping, shear_stiffness, shear_compliance, shear_damping, kept;
