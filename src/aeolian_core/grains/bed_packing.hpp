@@ -23,7 +23,7 @@ struct BedRecipe {
   double pits = 0;          ///< share of the surface's grains that are taken out at random, 0 to 0.5
   double length = 0.673;    ///< along the flight, between walls for discs, periodic for spheres [m]
   double width = 0;         ///< across the flight, periodic, spheres only [m]
-  double calm = 1e-6;       ///< settled when the mean kinetic energy of a grain is below so many m g d
+  double calm = 1e-5;       ///< settled when the mean kinetic energy of a grain is below so many m g d
 };
 
 /// What can be said about a bed at rest.

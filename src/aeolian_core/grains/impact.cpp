@@ -120,8 +120,9 @@ class ImpactRun {
   }
 
   void follow() {
-    for (int i = 1; grains_.time() - begin_ < follow_; ++i) {
-      grains_.step(begin_ + follow_ - grains_.time());
+    const double end = begin_ + follow_;
+    for (int i = 1; grains_.time() < end; ++i) {
+      grains_.step(end - grains_.time());
       if (incident_ >= 0) watch_incident();
       if (watch_) watch_(grains_, incident_, grains_.time() - begin_);
       if (i % steps_per_look == 0) {

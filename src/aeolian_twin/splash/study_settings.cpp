@@ -76,6 +76,7 @@ BedKind read_bed(YamlSection section, const StudySettings& study, double size_sp
   recipe.length = study.diameter * section.number("length_diameters", 4, 10000);
   if (!discs) recipe.width = study.diameter * section.number("width_diameters", 4, 10000);
   if (section.has("pits")) recipe.pits = section.number("pits", 0, 0.5);
+  if (section.has("calm_mgd")) recipe.calm = section.number("calm_mgd", 1e-12, 1);
   kind.number = section.integer("beds", 1, 1000);
   section.finish();
   return kind;

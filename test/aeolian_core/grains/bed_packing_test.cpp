@@ -28,7 +28,7 @@ TEST(BedPacking, LooseBedTouchesAndIsNoCrystal) {
 
 TEST(BedPacking, DenseBedIsHexagonalWithTwoSteps) {
   BedRecipe recipe = small_recipe(Packing::dense);
-  recipe.length = 0.41;
+  recipe.length = 0.4101;
   recipe.grains = 7 * 20 + 12;
   const auto bed = make_bed(recipe, soft_discs(), 1);
   expect_rest(bed.state, recipe.calm);
