@@ -73,10 +73,10 @@ class AccuracyTable {
     std::vector<Row> rows;
   };
 
-  static std::string told(double error) { return error > 0 ? fmt::format("{:.1g}", error) : ""; }
+  static std::string told(double error) { return error > 1e-12 ? fmt::format("{:.1g}", error) : ""; }
   /// With as many digits as the error leaves.
   static std::string number(double value, double error) {
-    if (!(error > 0) || value == 0) return fmt::format("{:.4g}", value);
+    if (!(error > 1e-5 * std::abs(value)) || value == 0) return fmt::format("{:.4g}", value);
     const int digits =
         static_cast<int>(std::floor(std::log10(std::abs(value))) - std::floor(std::log10(error)));
     return fmt::format("{:.{}g}", value, std::max(2, digits + 1));

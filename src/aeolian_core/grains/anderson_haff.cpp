@@ -25,7 +25,7 @@ void AndersonHaffEjection::sample(const Impact& impact, RandomStream& random,
   const double mean = 0.25 * std::pow(impact.speed, 0.3);
   for (int i = 0; i < count; ++i)
     ejecta.push_back(
-        ejected(bed, mean * random.exponential(), draw_elevation(mean_ejecta_elevation, random)));
+        ejected(bed, mean * draw_exponential(random), draw_elevation(mean_ejecta_elevation, random)));
 }
 
 }  // namespace aeolian

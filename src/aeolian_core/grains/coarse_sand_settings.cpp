@@ -49,12 +49,15 @@ CoarseSandRow at_fifteen(double speed) {
 /// Mean of upward speed squared times the tangent of the direction, for this correlation of both: what the
 /// reptation of a grain is proportional to. Over normal numbers in steps of 0.2.
 double mean_hop(const LogNormal& up, const TruncatedNormal& direction, double correlation) {
-  constexpr double reach = 4, step = 0.2;
+  constexpr int steps = 20;  // to each side
+  constexpr double step = 0.2;
   const double rest = std::sqrt(1 - correlation * correlation);
   double sum = 0, weights = 0;
-  for (double z = -reach; z <= reach; z += step) {
+  for (int i = -steps; i <= steps; ++i) {
+    const double z = step * i;
     const double square = up.at(z) * up.at(z);
-    for (double y = -reach; y <= reach; y += step) {
+    for (int k = -steps; k <= steps; ++k) {
+      const double y = step * k;
       const double angle = direction.middle() + direction.width() * (correlation * z + rest * y);
       if (std::abs(angle) > widest_direction) continue;
       const double weight = std::exp(-(z * z + y * y) / 2);

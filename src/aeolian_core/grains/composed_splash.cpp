@@ -8,7 +8,7 @@ namespace aeolian {
 namespace {
 
 /// What a rebound may differ from its impact by rounding.
-constexpr double rounding = 1e-12;
+constexpr double rounding = 1e-9;
 
 /// What an event may still take of its impact.
 class Allowance {

@@ -76,7 +76,8 @@ void DistributionSplash::draw_once(const Impact& impact, RandomStream& random, S
       event.ejecta.push_back({bed.velocity(leaves_along, away), 1, 0, Origin::other});
   }
   for (int left = p.c3 > 0 ? draw_poisson(mean_ejecta(impact), random) : 0; left > 0; --left)
-    event.ejecta.push_back({bed.velocity(leaves_along, p.c4 * random.exponential()), 1, 0, Origin::other});
+    event.ejecta.push_back(
+        {bed.velocity(leaves_along, p.c4 * draw_exponential(random)), 1, 0, Origin::other});
 }
 
 void DistributionSplash::draw(const Impact& impact, RandomStream& random, SplashEvent& event) const {

@@ -13,52 +13,79 @@ namespace {
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
 double below(double z) { return std::erfc(-z / M_SQRT2) / 2; }
 
-/// Layers of equal area under exp(-x^2 / 2): from x[i + 1] to x[i], the lowest with the tail.
+/// Layers of equal area under a falling density from x = 0: layer i reaches from 0 to x[i], all of it below
+/// x[i + 1] is under the density; the lowest holds the tail as well.
+template <unsigned Layers>
 struct Ziggurat {
-  static constexpr unsigned layers = 128;
-  static constexpr double tail = 3.442619855899;       // where it begins
-  static constexpr double area = 9.91256303526217e-3;  // of a layer
-  std::array<double, layers + 1> x;
-  std::array<double, layers> inside;  ///< x[i + 1] / x[i]
+  std::array<double, Layers + 1> x;
+  std::array<double, Layers + 1> height;  ///< of the density at x
 
-  Ziggurat() {
-    double height = std::exp(-tail * tail / 2);
-    x[0] = area / height;
+  template <typename Density, typename Inverse>
+  Ziggurat(double tail, double area, const Density& at, const Inverse& where) {
+    x[0] = area / at(tail);
     x[1] = tail;
-    x[layers] = 0;
-    for (unsigned i = 2; i < layers; ++i) {
-      x[i] = std::sqrt(-2 * std::log(area / x[i - 1] + height));
-      height = std::exp(-x[i] * x[i] / 2);
-    }
-    for (unsigned i = 0; i < layers; ++i) inside[i] = x[i + 1] / x[i];
+    x[Layers] = 0;
+    for (unsigned i = 2; i < Layers; ++i) x[i] = where(area / x[i - 1] + at(x[i - 1]));
+    for (unsigned i = 0; i <= Layers; ++i) height[i] = at(x[i]);
   }
 };
-const Ziggurat ziggurat;
+
+constexpr double normal_tail = 3.442619855899;
+const Ziggurat<128> normal_layers(
+    normal_tail, 9.91256303526217e-3, [](double x) { return std::exp(-x * x / 2); },
+    [](double y) { return std::sqrt(-2 * std::log(y)); });
+
+constexpr double exponential_tail = 7.69711747013104972;
+const Ziggurat<256> exponential_layers(
+    exponential_tail, 3.9496598225815571993e-3, [](double x) { return std::exp(-x); },
+    [](double y) { return -std::log(y); });
+
+/// Whether a point at random over x in a layer, beside what is surely under the density, is under it.
+template <unsigned Layers>
+bool under(const Ziggurat<Layers>& all, unsigned layer, double density_there, RandomStream& random) {
+  const double low = all.height[layer], high = all.height[layer + 1];
+  return low + random.uniform() * (high - low) < density_there;
+}
 
 }  // namespace
 
 double draw_normal(RandomStream& random) {
   for (;;) {
     const double u = 2 * random.uniform() - 1;
-    const unsigned layer = random.bits() % Ziggurat::layers;
-    const double x = u * ziggurat.x[layer];
-    if (std::abs(u) < ziggurat.inside[layer]) return x;
-    if (layer == 0) {
-      for (;;) {
-        const double beyond = random.exponential() / Ziggurat::tail;
-        if (2 * random.exponential() > beyond * beyond) return std::copysign(Ziggurat::tail + beyond, u);
-      }
+    const unsigned layer = random.bits() % 128;
+    const double x = u * normal_layers.x[layer];
+    if (std::abs(x) < normal_layers.x[layer + 1]) return x;
+    if (layer > 0) {
+      if (under(normal_layers, layer, std::exp(-x * x / 2), random)) return x;
+      continue;
     }
-    const double outer = std::exp((x * x - ziggurat.x[layer] * ziggurat.x[layer]) / 2);
-    const double inner = std::exp((x * x - ziggurat.x[layer + 1] * ziggurat.x[layer + 1]) / 2);
-    if (inner + random.uniform() * (outer - inner) < 1) return x;
+    for (;;) {
+      const double beyond = draw_exponential(random) / normal_tail;
+      if (2 * draw_exponential(random) > beyond * beyond) return std::copysign(normal_tail + beyond, u);
+    }
+  }
+}
+
+double draw_exponential(RandomStream& random) {
+  double passed = 0;  // of the tail, which is the whole again
+  for (;;) {
+    const unsigned layer = random.bits() % 256;
+    const double x = random.uniform() * exponential_layers.x[layer];
+    if (x < exponential_layers.x[layer + 1]) return passed + x;
+    if (layer == 0)
+      passed += exponential_tail;
+    else if (under(exponential_layers, layer, std::exp(-x), random))
+      return passed + x;
   }
 }
 
 int draw_poisson(double mean, RandomStream& random) {
   constexpr double largest = 30;  // of one inversion: the sum of two such numbers is such a number
   int count = 0;
-  for (; mean > largest; mean -= largest) count += draw_poisson(largest, random);
+  while (mean > largest) {
+    count += draw_poisson(largest, random);
+    mean -= largest;
+  }
   if (mean <= 0) return count;
   double probability = std::exp(-mean);
   double left = random.uniform() - probability;
@@ -141,8 +168,10 @@ double draw_normal_above(double low, RandomStream& random) {
   }
   const double rate = (low + std::sqrt(low * low + 4)) / 2;
   for (;;) {
-    const double z = low + random.exponential() / rate;
-    if (random.uniform() < std::exp(-(z - rate) * (z - rate) / 2)) return z;
+    const double z = low + draw_exponential(random) / rate;
+    const double half_square = (z - rate) * (z - rate) / 2;
+    const double u = random.uniform();
+    if (u < 1 - half_square || u < std::exp(-half_square)) return z;
   }
 }
 

@@ -10,6 +10,10 @@ namespace aeolian {
 /// as fast as RandomStream::normal().
 double draw_normal(RandomStream& random);
 
+/// Exponential with mean 1: Marsaglia and Tsang's ziggurat with 256 layers. Faster than
+/// RandomStream::exponential().
+double draw_exponential(RandomStream& random);
+
 /// A whole number whose mean is `mean` and whose variance is the same.
 int draw_poisson(double mean, RandomStream& random);
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "aeolian_core/grains/draws.hpp"
 #include "aeolian_core/grains/unit_vector.hpp"
 
 namespace aeolian {
 
 double draw_elevation(double mean, RandomStream& random) {
   constexpr double degree = M_PI / 180;
-  return std::clamp(mean * random.exponential(), 1 * degree, 179 * degree);
+  return std::clamp(mean * draw_exponential(random), 1 * degree, 179 * degree);
 }
 
 LeavingGrain ejected(const BedView& bed, double speed, double elevation) {

@@ -38,7 +38,7 @@ void KokRennoEjection::sample(const Impact& impact, RandomStream& random,
   const double mean = mean_speed(impact.speed);
   for (int i = 0; i < count; ++i)
     ejecta.push_back(
-        ejected(bed, mean * random.exponential(), draw_elevation(mean_ejecta_elevation, random)));
+        ejected(bed, mean * draw_exponential(random), draw_elevation(mean_ejecta_elevation, random)));
 }
 
 }  // namespace aeolian

@@ -49,7 +49,7 @@ Interval interval(const std::vector<double>& axis, double value) {
 
 }  // namespace
 
-SplashTable SplashTable::of(std::vector<Gathered> nodes, const SplashTableSource& source,
+SplashTable SplashTable::of(const std::vector<Gathered>& nodes, const SplashTableSource& source,
                             const std::string& where) {
   SplashTable table;
   table.source_ = source;

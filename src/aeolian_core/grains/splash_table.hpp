@@ -90,7 +90,7 @@ class SplashTable {
 
   SplashTable() = default;
   /// Puts what was gathered onto the grid. `where` begins the message of errors.
-  static SplashTable of(std::vector<Gathered> nodes, const SplashTableSource& source,
+  static SplashTable of(const std::vector<Gathered>& nodes, const SplashTableSource& source,
                         const std::string& where);
   void find_threshold();
   std::size_t node_index(const std::array<std::size_t, 4>& indices) const;

@@ -9,8 +9,9 @@
 namespace aeolian {
 namespace {
 
-/// Four decimals, towards zero: a rounded velocity has never more energy.
-double cut(double value) { return std::trunc(value * 1e4) / 1e4; }
+/// Four decimals, towards zero: a rounded velocity has never more energy. What is just short of a decimal by
+/// the rounding of its computing is that decimal.
+double cut(double value) { return std::trunc(value * 1e4 + std::copysign(1e-6, value)) / 1e4; }
 float short_cut(double value) { return static_cast<float>(cut(value)); }
 
 }  // namespace
@@ -53,7 +54,7 @@ SplashTable SplashTable::build(const std::vector<SplashCase>& cases, double diam
       node.events.push_back(stored);
     }
   }
-  return of(std::move(nodes), source, "splash table");
+  return of(nodes, source, "splash table");
 }
 
 }  // namespace aeolian

@@ -50,7 +50,8 @@ class Lines {
   std::vector<std::string_view> fields(std::size_t count) const {
     std::vector<std::string_view> all;
     std::string_view rest = line_;
-    for (std::size_t comma; (comma = rest.find(',')) != std::string_view::npos; rest.remove_prefix(comma + 1))
+    for (std::size_t comma = 0; (comma = rest.find(',')) != std::string_view::npos;
+         rest.remove_prefix(comma + 1))
       all.push_back(trimmed(rest.substr(0, comma)));
     all.push_back(trimmed(rest));
     if (all.size() != count)
@@ -195,7 +196,7 @@ SplashTable SplashTable::read(const std::string& path) {
         event = {false, lines.number(f[1], "velocity along", -1, 1),
                  lines.number(f[2], "velocity across", -1, 1), lines.number(f[3], "velocity away", -1, 1),
                  event.first};
-        if (event.along * event.along + event.across * event.across + event.away * event.away > 1 + 1e-12)
+        if (event.along * event.along + event.across * event.across + event.away * event.away > 1 + 1e-9)
           lines.fail("the rebound is faster than the impact, must not be");
       } else {
         lines.fields(1);
@@ -226,7 +227,7 @@ SplashTable SplashTable::read(const std::string& path) {
                " events and " + std::to_string(ejecta) + " ejecta, must be " + std::to_string(head.nodes) +
                ", " + std::to_string(head.events) + " and " + std::to_string(head.ejecta) +
                " as the head says");
-  return of(std::move(nodes), head.source, path);
+  return of(nodes, head.source, path);
 }
 
 }  // namespace aeolian

@@ -42,6 +42,19 @@ TEST(DrawsTest, normal_numbers_are_normal) {
   EXPECT_GT(all.back(), 3.6);                    // the tail beyond the ziggurat is there
 }
 
+TEST(DrawsTest, exponential_numbers_are_exponential) {
+  RandomStream random(3, 1);
+  std::vector<double> all;
+  for (int i = 0; i < count; ++i) all.push_back(draw_exponential(random));
+  std::sort(all.begin(), all.end());
+  double distance = 0;
+  for (int i = 0; i < count; ++i)
+    distance =
+        std::max(distance, std::abs(1 - std::exp(-all[static_cast<std::size_t>(i)]) - (i + 0.5) / count));
+  EXPECT_LT(distance, 1.95 / std::sqrt(count));
+  EXPECT_GT(all.back(), 8);  // beyond the ziggurat
+}
+
 TEST(DrawsTest, tails_are_those_of_the_normal_distribution) {
   for (const double low : {-1.0, 0.5, 2.0}) {
     const double share = std::erfc(low / M_SQRT2) / 2;

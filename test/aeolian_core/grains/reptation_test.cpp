@@ -35,13 +35,15 @@ TEST(ReptationTest, thesis_ejecta_turn_about_on_steep_stoss_slopes) {
   EXPECT_NEAR(mean_reptation(0.55, 7, 1.65 * 1.65 + 0.85 * 0.85, 10 * degree), -0.32, 0.005);
 }
 
+LeavingGrain from(Origin origin) { return {Eigen::Vector3d::Zero(), 1, 0, origin}; }
+
 TEST(SurfaceRoughnessTest, targets_roughen_and_brinks_smooth) {
   SurfaceRoughness bed(100, 0.1);
   SplashEvent event;
-  event.ejecta = {{{}, 1, 0, Origin::target}, {{}, 1, 0, Origin::target}, {{}, 1, 0, Origin::other}};
+  event.ejecta = {from(Origin::target), from(Origin::target), from(Origin::other)};
   bed.ejected(event);
   EXPECT_NEAR(bed.brinks(), 0.12, 1e-12);
-  event.ejecta = {{{}, 1, 0, Origin::brink}, {{}, 1, 0, Origin::anti_brink}, {{}, 1, 0, Origin::brink}};
+  event.ejecta = {from(Origin::brink), from(Origin::anti_brink), from(Origin::brink)};
   bed.ejected(event);
   EXPECT_NEAR(bed.brinks(), 0.09, 1e-12);
 }
@@ -53,7 +55,7 @@ TEST(SurfaceRoughnessTest, grains_that_come_to_rest_fill_and_bounds_hold) {
   bed.came_to_rest(1e6);
   EXPECT_NEAR(bed.brinks(), 0, 1e-12);
   SplashEvent event;
-  event.ejecta.assign(1000, {{}, 1, 0, Origin::target});
+  event.ejecta.assign(1000, from(Origin::target));
   bed.ejected(event);
   EXPECT_EQ(bed.brinks(), SurfaceRoughness::most);
 }
@@ -61,7 +63,7 @@ TEST(SurfaceRoughnessTest, grains_that_come_to_rest_fill_and_bounds_hold) {
 TEST(SurfaceRoughnessTest, balance_of_targets_and_filling) {
   SurfaceRoughness bed(200);
   SplashEvent one;
-  one.ejecta = {{{}, 1, 0, Origin::target}};
+  one.ejecta = {from(Origin::target)};
   for (int i = 0; i < 20000; ++i) {
     bed.ejected(one);
     bed.came_to_rest(5);

@@ -50,7 +50,8 @@ TEST(SplashFunctionsTest, a_seed_decides_the_draws) {
       c += kinetic_energy(splash->sample({4, 0.2}, other));
     }
     EXPECT_EQ(a, b) << name;
-    if (name != "beladjine") EXPECT_NE(a, c) << name;  // whose rebound is the same each time
+    if (name == "beladjine") continue;  // whose rebound is the same each time
+    EXPECT_NE(a, c) << name;
   }
 }
 
