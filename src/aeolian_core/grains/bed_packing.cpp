@@ -21,12 +21,14 @@ void require(bool allowed, const char* part, double value, const char* range) {
 
 void require_valid(const BedRecipe& recipe, int dimensions) {
   require(recipe.radius > 0 && std::isfinite(recipe.radius), "radius", recipe.radius, "positive");
-  require(recipe.size_spread >= 0 && recipe.size_spread <= 0.5, "size_spread", recipe.size_spread, "0 to 0.5");
+  require(recipe.size_spread >= 0 && recipe.size_spread <= 0.5, "size_spread", recipe.size_spread,
+          "0 to 0.5");
   require(recipe.grains >= 1 && recipe.grains <= 10000000, "grains", recipe.grains, "1 to 10000000");
   require(recipe.length >= 8 * recipe.radius, "length", recipe.length, "at least 4 diameters");
   require(recipe.pits >= 0 && recipe.pits <= 0.5, "pits", recipe.pits, "0 to 0.5");
   require(recipe.calm > 0, "calm", recipe.calm, "positive");
-  if (dimensions == 3) require(recipe.width >= 8 * recipe.radius, "width", recipe.width, "at least 4 diameters");
+  if (dimensions == 3)
+    require(recipe.width >= 8 * recipe.radius, "width", recipe.width, "at least 4 diameters");
   if (dimensions == 3 && (recipe.packing == Packing::loose || recipe.packing == Packing::dense))
     throw Error("bed: packing of spheres is loose or dense, must be poured or struck");
 }
@@ -66,7 +68,8 @@ class Bricklayer {
     const double pitch = recipe_.length / columns;
     const double sideways = std::min(0.04 * r, 0.49 * (pitch - 2 * r));
     for (int i = 0; i < recipe_.grains; ++i)
-      grains_.add({(i % columns + 0.5) * pitch + jitter(sideways), (2 * (i / columns) + 1) * 1.004 * r}, radius());
+      grains_.add({(i % columns + 0.5) * pitch + jitter(sideways), (2 * (i / columns) + 1) * 1.004 * r},
+                  radius());
     return std::move(grains_);
   }
 
@@ -152,7 +155,8 @@ void settle(GrainDynamics<Dim>& grains, GrainWorld<Dim> world, const BedRecipe& 
     grains.advance(0.25 * time);
     if (grains.kinetic_energy() < calm) return;
   }
-  throw Error(fmt::format("bed: {} grains have not come to rest within {:g} s", grains.size(), 0.25 * time * longest));
+  throw Error(fmt::format("bed: {} grains have not come to rest within {:g} s", grains.size(),
+                          0.25 * time * longest));
 }
 
 /// The same law with contacts `times` as long: stiffness over the square of that.

@@ -10,20 +10,21 @@ namespace aeolian {
 /// How a bed of grains is laid.
 struct BedRecipe {
   enum class Packing {
-    loose,  ///< discs: a jittered, almost square lattice that has collapsed (Werner 1987, ch. III)
-    dense,  ///< discs: hexagonal rows and a plateau of two thirds of a row, whose ends are a brink and an
-            ///< anti-brink (Werner 1987, ch. III)
+    loose,   ///< discs: a jittered, almost square lattice that has collapsed (Werner 1987, ch. III)
+    dense,   ///< discs: hexagonal rows and a plateau of two thirds of a row, whose ends are a brink and an
+             ///< anti-brink (Werner 1987, ch. III)
     poured,  ///< rained down at random
     struck,  ///< poured, then struck off level with a straightedge, as experiments begin
   };
   Packing packing = Packing::loose;
-  double radius = 0.01;     ///< mean [m]
-  double size_spread = 0;   ///< standard deviation of the radii over their mean, log-normal, cut at two; 0 to 0.5
-  int grains = 375;         ///< laid; those struck off or taken out are missing from the bed
-  double pits = 0;          ///< share of the surface's grains that are taken out at random, 0 to 0.5
-  double length = 0.673;    ///< along the flight, between walls for discs, periodic for spheres [m]
-  double width = 0;         ///< across the flight, periodic, spheres only [m]
-  double calm = 1e-5;       ///< settled when the mean kinetic energy of a grain is below so many m g d
+  double radius = 0.01;  ///< mean [m]
+  double size_spread =
+      0;             ///< standard deviation of the radii over their mean, log-normal, cut at two; 0 to 0.5
+  int grains = 375;  ///< laid; those struck off or taken out are missing from the bed
+  double pits = 0;   ///< share of the surface's grains that are taken out at random, 0 to 0.5
+  double length = 0.673;  ///< along the flight, between walls for discs, periodic for spheres [m]
+  double width = 0;       ///< across the flight, periodic, spheres only [m]
+  double calm = 1e-5;     ///< settled when the mean kinetic energy of a grain is below so many m g d
 };
 
 /// What can be said about a bed at rest.
@@ -47,9 +48,9 @@ struct Bed {
 };
 
 /// Lays grains under the law, density and gravity of a world, lets them settle, and looks at the result.
-/// The world's walls and periods are made here; its drag and sleep rule are those of the bed afterwards. Throws
-/// Error naming the part of the recipe that is not valid, its value and what is allowed, and when the bed
-/// does not come to rest.
+/// The world's walls and periods are made here; its drag and sleep rule are those of the bed afterwards.
+/// Throws Error naming the part of the recipe that is not valid, its value and what is allowed, and when the
+/// bed does not come to rest.
 template <int Dim>
 Bed<Dim> make_bed(const BedRecipe& recipe, const GrainWorld<Dim>& world, std::uint64_t seed);
 

@@ -43,8 +43,8 @@ BedState bed_state(const GrainDynamics<Dim>& grains, const BedSurface& surface, 
   }
   const double unit = mass * weight * 2 * radius;
   const double space = (high - low) * length * (Dim == 3 ? width : 1);
-  return {static_cast<int>(grains.size()), solid / space,  2 * pairs / count, grains.kinetic_energy() / unit,
-          overlap / unit,                  surface.roughness()};
+  return {static_cast<int>(grains.size()), solid / space,  2 * pairs / count,
+          grains.kinetic_energy() / unit,  overlap / unit, surface.roughness()};
 }
 
 template BedState bed_state(const GrainDynamics<2>&, const BedSurface&, double, double, double);

@@ -17,7 +17,8 @@ class Sections {
  public:
   template <int Dim>
   Sections(const GrainDynamics<Dim>& grains, double radius, double length, double width)
-      : length_(length), columns_(static_cast<std::size_t>(std::ceil(columns_per_diameter * length / (2 * radius)))) {
+      : length_(length),
+        columns_(static_cast<std::size_t>(std::ceil(columns_per_diameter * length / (2 * radius)))) {
     const auto& period = grains.world().period;
     period_x_ = period.x();
     for (const int grain : grains.numbers()) {
@@ -28,7 +29,8 @@ class Sections {
     }
     if constexpr (Dim == 3) {
       period_y_ = period.y();
-      const int count = std::max(1, static_cast<int>(std::round(sections_per_diameter * width / (2 * radius))));
+      const int count =
+          std::max(1, static_cast<int>(std::round(sections_per_diameter * width / (2 * radius))));
       for (int i = 0; i < count; ++i) across_.push_back((i + 0.5) * width / count);
     } else {
       (void)width;

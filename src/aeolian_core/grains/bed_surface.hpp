@@ -15,8 +15,8 @@ namespace aeolian {
 /// quarter of a diameter apart.
 class BedSurface {
  public:
-  /// The steps of a hexagonal bed have 0.87 diameters, those between terraces of looser beds less; grains that
-  /// merely lie uneven differ by less than half of one.
+  /// The steps of a hexagonal bed have 0.87 diameters, those between terraces of looser beds less; grains
+  /// that merely lie uneven differ by less than half of one.
   static constexpr double step_diameters = 0.5;
 
   /// For grains of this mean radius [m] between x = 0 and `length` [m]; `width` is that across the flight, of

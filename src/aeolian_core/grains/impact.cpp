@@ -84,7 +84,8 @@ class ImpactRun {
 
   /// Until the grain meets the bed; whether it does.
   bool approach() {
-    const double path = (bed_.surface.top() + 2 * outcome_.shot.size_ratio * bed_.radius) / std::sin(outcome_.shot.angle);
+    const double path =
+        (bed_.surface.top() + 2 * outcome_.shot.size_ratio * bed_.radius) / std::sin(outcome_.shot.angle);
     const double longest = grains_.time() + 4 * path / outcome_.shot.speed;
     while (grains_.time() < longest) {
       const Vector<Dim> velocity = grains_.velocity(incident_);
@@ -169,7 +170,8 @@ class ImpactRun {
   void look_for_risen() {
     risen_.clear();
     for (const int grain : grains_.numbers())
-      if (grains_.position(grain)[Dim - 1] > plane_ && grains_.velocity(grain)[Dim - 1] > 0) risen_.push_back(grain);
+      if (grains_.position(grain)[Dim - 1] > plane_ && grains_.velocity(grain)[Dim - 1] > 0)
+        risen_.push_back(grain);
     for (const int grain : risen_) {
       note(grain);
       grains_.remove(grain);
@@ -231,7 +233,8 @@ class ImpactRun {
 }  // namespace
 
 template <int Dim>
-ImpactOutcome fire(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rules, const ImpactWatch<Dim>& watch) {
+ImpactOutcome fire(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rules,
+                   const ImpactWatch<Dim>& watch) {
   require_valid(shot);
   return ImpactRun<Dim>(bed, shot, rules, watch).run();
 }

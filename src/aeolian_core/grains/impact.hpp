@@ -35,14 +35,14 @@ struct FirstContact {
 ///
 /// Vectors are in the frame of Impact: x along the flight, y to the left, z up.
 struct RisenGrain {
-  int grain;                  ///< its number in the bed
-  double time;                ///< after the first contact [s]
-  double radius;              ///< [m]
-  double spin;                ///< size of it [rad/s]
-  Eigen::Vector3d place;      ///< at that time, in the bed [m]
-  Eigen::Vector3d velocity;   ///< at that time [m/s]
-  Eigen::Vector3d origin;     ///< from the point of impact to its place in the bed at rest [m]
-  int layer;                  ///< of the bed that it came from; 0 for the incident grain
+  int grain;                 ///< its number in the bed
+  double time;               ///< after the first contact [s]
+  double radius;             ///< [m]
+  double spin;               ///< size of it [rad/s]
+  Eigen::Vector3d place;     ///< at that time, in the bed [m]
+  Eigen::Vector3d velocity;  ///< at that time [m/s]
+  Eigen::Vector3d origin;    ///< from the point of impact to its place in the bed at rest [m]
+  int layer;                 ///< of the bed that it came from; 0 for the incident grain
   Origin kind = Origin::other;
 };
 
@@ -65,13 +65,14 @@ struct ImpactRules {
   SleepRule sleep;            ///< of the grains that the impact does not reach
 };
 
-/// Sees the grains as an impact goes on, once a step; the time is that after the first contact, negative before.
+/// Sees the grains as an impact goes on, once a step; the time is that after the first contact, negative
+/// before.
 template <int Dim>
 using ImpactWatch = std::function<void(const GrainDynamics<Dim>& grains, int incident, double time)>;
 
-/// Fires one grain at a copy of a bed (Werner 1987, ch. III; splash specification, sec. 3.2): grains that rise
-/// by more than a diameter above the bed's top are noted and taken away. Throws Error for a shot that is not valid: speed, angle (1 to 90
-/// degrees), size ratio (0.1 to 10).
+/// Fires one grain at a copy of a bed (Werner 1987, ch. III; splash specification, sec. 3.2): grains that
+/// rise by more than a diameter above the bed's top are noted and taken away. Throws Error for a shot that is
+/// not valid: speed, angle (1 to 90 degrees), size ratio (0.1 to 10).
 template <int Dim>
 ImpactOutcome fire(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rules,
                    const ImpactWatch<Dim>& watch = {});

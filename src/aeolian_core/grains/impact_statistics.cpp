@@ -103,11 +103,13 @@ EjectaShare share_of(Origin kind, const std::vector<const ImpactOutcome*>& outco
       return grain.kind == kind ? value(o, grain) : 0;
     });
   };
-  return {of_kind([](const ImpactOutcome&, const RisenGrain&) { return 1.; }), pooled_mean(angles), of_kind(momentum),
+  return {of_kind([](const ImpactOutcome&, const RisenGrain&) { return 1.; }), pooled_mean(angles),
+          of_kind(momentum),
           of_kind([](const ImpactOutcome&, const RisenGrain& grain) { return hop(grain.velocity); })};
 }
 
-void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius, int dim, ImpactStatistics& s) {
+void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius, int dim,
+                ImpactStatistics& s) {
   const auto share = [&](const ImpactOutcome& o, const RisenGrain& grain) {
     return std::pow(grain.radius / radius, dim) / o.incident_mass;
   };
@@ -117,9 +119,11 @@ void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius
   s.origin_along = over_ejecta(outcomes, [](const RisenGrain& g) { return g.origin.x(); });
   s.origin_up = over_ejecta(outcomes, [](const RisenGrain& g) { return g.origin.z(); });
   s.origin_distance = over_ejecta(outcomes, [](const RisenGrain& g) { return g.origin.norm(); });
-  s.from_upper_layers = over_ejecta(outcomes, [](const RisenGrain& g) { return g.layer <= 2 ? 1. : 0.; }).mean;
+  s.from_upper_layers =
+      over_ejecta(outcomes, [](const RisenGrain& g) { return g.layer <= 2 ? 1. : 0.; }).mean;
   s.number = over_impacts(outcomes, [](const ImpactOutcome&, const RisenGrain&) { return 1.; });
-  s.reptation = over_impacts(outcomes, [](const ImpactOutcome&, const RisenGrain& g) { return hop(g.velocity); });
+  s.reptation =
+      over_impacts(outcomes, [](const ImpactOutcome&, const RisenGrain& g) { return hop(g.velocity); });
   s.ejected_along = over_impacts(outcomes, [&](const ImpactOutcome& o, const RisenGrain& g) {
     return share(o, g) * g.velocity.x() / o.shot.speed;
   });

@@ -7,7 +7,8 @@
 
 namespace aeolian {
 
-/// A mean, the standard deviation of the values, and the standard error of the mean; NaN where there are too few.
+/// A mean, the standard deviation of the values, and the standard error of the mean; NaN where there are too
+/// few.
 struct MeanValue {
   double mean;
   double half_width;
@@ -50,17 +51,17 @@ struct ImpactStatistics {
   MeanValue bed_energy;  ///< energy that no leaving grain takes, over the incident, of all impacts
 
   // Ejecta: means over grains.
-  MeanValue ejecta_speed, ejecta_upward;  ///< [m/s]
-  MeanValue ejecta_angle;                 ///< from the vertical, positive along the flight [rad]
+  MeanValue ejecta_speed, ejecta_upward;               ///< [m/s]
+  MeanValue ejecta_angle;                              ///< from the vertical, positive along the flight [rad]
   MeanValue origin_along, origin_up, origin_distance;  ///< from the point of impact [m]
   double from_upper_layers = 0;                        ///< share of those from the first two layers
 
   // Ejecta: means over impacts.
   MeanValue number;
-  MeanValue reptation;                          ///< sum of 2 v_x v_z / g [m]
-  MeanValue ejected_along, ejected_up;          ///< momentum over the incident grain's size of momentum
-  MeanValue ejected_energy;                     ///< over the incident grain's
-  std::map<Origin, EjectaShare> by_origin;      ///< target, brink, anti_brink and other
+  MeanValue reptation;                      ///< sum of 2 v_x v_z / g [m]
+  MeanValue ejected_along, ejected_up;      ///< momentum over the incident grain's size of momentum
+  MeanValue ejected_energy;                 ///< over the incident grain's
+  std::map<Origin, EjectaShare> by_origin;  ///< target, brink, anti_brink and other
 };
 
 /// Momentum and energy in terms of a mean bed grain's mass, so that size ratios count.

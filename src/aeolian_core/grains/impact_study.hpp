@@ -22,8 +22,9 @@ struct ImpactSeries {
 /// Fires independent impacts at copies of the beds, on all threads; in the order of their numbers. The n-th
 /// impact hits bed n modulo their number at a place that depends on seed and n only, so that the result does
 /// not depend on threads, and a longer series begins with the shorter one. `done` is told the number of
-/// impacts that are over, one call at a time. When `stop` becomes true, those under way are finished, no other is begun, and
-/// the result has what there is. Throws Error for a shot that is not valid and for a series without beds.
+/// impacts that are over, one call at a time. When `stop` becomes true, those under way are finished, no
+/// other is begun, and the result has what there is. Throws Error for a shot that is not valid and for a
+/// series without beds.
 template <int Dim>
 std::vector<ImpactOutcome> fire_series(const std::vector<Bed<Dim>>& beds, const ImpactSeries& series,
                                        const ImpactRules& rules, const std::function<void(int)>& done = {},

@@ -20,21 +20,23 @@ template <int Dim>
 std::vector<FilmGrain> seen(const GrainDynamics<Dim>& grains, int incident) {
   std::vector<FilmGrain> result;
   for (const int grain : grains.numbers())
-    result.push_back({in_space<Dim>(grains.position(grain)), grains.radius(grain), grains.velocity(grain).norm(),
-                      grain == incident});
+    result.push_back({in_space<Dim>(grains.position(grain)), grains.radius(grain),
+                      grains.velocity(grain).norm(), grain == incident});
   return result;
 }
 
 FilmGrain in_flight(const RisenGrain& risen, double time) {
   const double dt = time - risen.time;
   Eigen::Vector3d velocity = risen.velocity;
-  const Eigen::Vector3d place = risen.place + dt * velocity - 0.5 * gravity * dt * dt * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d place =
+      risen.place + dt * velocity - 0.5 * gravity * dt * dt * Eigen::Vector3d::UnitZ();
   velocity.z() -= gravity * dt;
   return {place, risen.radius, velocity.norm(), risen.kind == Origin::rebound};
 }
 
 /// Brings the neighbours of a periodic bed behind the impact, the nearest half a diameter in front of it.
-void arrange(FilmFrame& frame, const Eigen::Vector3d& impact, const Eigen::Vector2d& period, double diameter) {
+void arrange(FilmFrame& frame, const Eigen::Vector3d& impact, const Eigen::Vector2d& period,
+             double diameter) {
   for (FilmGrain& grain : frame.grains) {
     if (period.x() > 0)
       grain.place.x() -= period.x() * std::round((grain.place.x() - impact.x()) / period.x());

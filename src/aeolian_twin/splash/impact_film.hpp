@@ -30,10 +30,10 @@ struct Film {
   Eigen::Vector3d impact;  ///< where the grain is when it meets the bed [m]
 };
 
-/// Fires the shot and takes a picture at each of these times [s], ascending; before the first contact, at time 0,
-/// the bed is at rest. Grains that the impact has noted and taken away go on in free flight. Of spheres only the
-/// half behind the impact is seen, and all around a periodic bed is brought behind it. Throws Error when the
-/// shot misses the bed.
+/// Fires the shot and takes a picture at each of these times [s], ascending; before the first contact, at
+/// time 0, the bed is at rest. Grains that the impact has noted and taken away go on in free flight. Of
+/// spheres only the half behind the impact is seen, and all around a periodic bed is brought behind it.
+/// Throws Error when the shot misses the bed.
 template <int Dim>
 Film film_impact(const Bed<Dim>& bed, const Shot& shot, ImpactRules rules, const std::vector<double>& times);
 

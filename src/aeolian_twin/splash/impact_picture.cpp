@@ -42,7 +42,9 @@ Colour heat(double share) {
 /// their logarithm.
 struct SpeedScale {
   double low, high;
-  double operator()(double speed) const { return std::log(std::max(speed, low) / low) / std::log(high / low); }
+  double operator()(double speed) const {
+    return std::log(std::max(speed, low) / low) / std::log(high / low);
+  }
 };
 
 SpeedScale speed_scale(const Film& film) {
@@ -69,8 +71,8 @@ std::string time_text(double seconds) { return fmt::format("{:.1f} ms", 1000 * s
 class ImpactPicture::Drawing {
  public:
   explicit Drawing(cv::Mat& picture)
-      : surface_(cairo_image_surface_create_for_data(picture.data, CAIRO_FORMAT_RGB24, picture.cols, picture.rows,
-                                                     static_cast<int>(picture.step)),
+      : surface_(cairo_image_surface_create_for_data(picture.data, CAIRO_FORMAT_RGB24, picture.cols,
+                                                     picture.rows, static_cast<int>(picture.step)),
                  cairo_surface_destroy),
         cairo_(cairo_create(surface_.get()), cairo_destroy) {
     set(paper);
@@ -140,7 +142,8 @@ ImpactPicture::ImpactPicture(const Film& film, std::string title, int width)
     : film_(film), title_(std::move(title)), width_(width) {
   const double seen = std::min(film.length, 34 * film.diameter);
   scale_ = width / seen;
-  left_ = std::clamp(film.impact.x() - 0.5 * seen, std::min(0.0, film.length - seen), std::max(0.0, film.length - seen));
+  left_ = std::clamp(film.impact.x() - 0.5 * seen, std::min(0.0, film.length - seen),
+                     std::max(0.0, film.length - seen));
   if (film.length <= seen) left_ = 0.5 * (film.length - seen);
   bottom_ = std::max(-0.25 * film.diameter, film.top - 13 * film.diameter);
   top_ = film.top + 11.5 * film.diameter;
@@ -156,10 +159,14 @@ cv::Mat ImpactPicture::draw(std::size_t index) const {
   const auto py = [&](double z) { return scale_ * (top_ - z); };
   Drawing drawing(picture);
 
-  std::vector<Eigen::Vector2d> path;
+  const double before = -film_.length;  // how far back the straight path of arrival is drawn
+  std::vector<Eigen::Vector2d> path{{px(film_.impact.x() + before * std::cos(film_.shot.angle)),
+                                     py(film_.impact.z() - before * std::sin(film_.shot.angle))}};
+  if (frame.time >= 0) path.emplace_back(px(film_.impact.x()), py(film_.impact.z()));
   for (std::size_t i = 0; i <= index; ++i)
     for (const FilmGrain& grain : film_.frames[i].grains)
-      if (grain.incident) path.emplace_back(px(grain.place.x()), py(grain.place.z()));
+      if (grain.incident && (film_.frames[i].time >= 0 || i == index))
+        path.emplace_back(px(grain.place.x()), py(grain.place.z()));
   for (const FilmGrain& grain : frame.grains) {
     const Colour colour = heat(speed(grain.speed));
     if (!grain.incident)
@@ -169,7 +176,8 @@ cv::Mat ImpactPicture::draw(std::size_t index) const {
   drawing.path(path, 2.5 * unit, marked);
   for (const FilmGrain& grain : frame.grains)
     if (grain.incident)
-      drawing.ball(px(grain.place.x()), py(grain.place.z()), scale_ * grain.radius, marked, {1, 1, 1}, 2.5 * unit);
+      drawing.ball(px(grain.place.x()), py(grain.place.z()), scale_ * grain.radius, marked, {1, 1, 1},
+                   2.5 * unit);
 
   const double floor = py(bottom_);
   drawing.box(0, floor, width_, height_ - floor, paper);
@@ -195,7 +203,8 @@ cv::Mat ImpactPicture::draw(std::size_t index) const {
     const double x = from + 330 * unit * speed(tick);
     drawing.line(x, y - 19 * unit, x, y - 1 * unit, 1.2 * unit, ink);
     const bool last = tick * 10 > speed.high;
-    drawing.text(x, y + 19 * unit, 17 * unit, false, ink, fmt::format("{:g}{}", tick, last ? " m/s" : ""), last ? 0.3 : 0.5);
+    drawing.text(x, y + 19 * unit, 17 * unit, false, ink, fmt::format("{:g}{}", tick, last ? " m/s" : ""),
+                 last ? 0.3 : 0.5);
   }
   return picture;
 }

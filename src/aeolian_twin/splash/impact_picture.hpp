@@ -29,8 +29,8 @@ class ImpactPicture {
   double left_, top_, bottom_;  ///< of what is seen [m]
 };
 
-/// Writes impact.webp, which moves, impact_00.png and so on, frames at the times of Werner's (1987) fig. 3.1 in
-/// terms of sqrt(r / g), and impact.png with all of those.
+/// Writes impact.webp, which moves, impact_00.png and so on, frames at the times of Werner's (1987) fig. 3.1
+/// in terms of sqrt(r / g), and impact.png with all of those.
 template <int Dim>
 void write_impact_pictures(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rules,
                            const std::string& title, const std::string& folder);

@@ -42,7 +42,7 @@ void write_moving(const Bed<Dim>& bed, const Shot& shot, const ImpactRules& rule
                   const std::string& path) {
   const double unit = std::sqrt(bed.radius / gravity);
   const Film film = film_impact<Dim>(bed, shot, rules, moving_times(unit, rules.follow * unit));
-  const ImpactPicture picture(film, title, 800);
+  const ImpactPicture picture(film, title, 720);
   const cv::Mat first = picture.draw(0);
   WebpAnimation animation(first.cols, first.rows);
   for (std::size_t i = 0; i < film.frames.size(); ++i)
@@ -57,7 +57,8 @@ void write_impact_pictures(const Bed<Dim>& bed, const Shot& shot, const ImpactRu
                            const std::string& title, const std::string& folder) {
   const double unit = std::sqrt(bed.radius / gravity);
   std::vector<double> times;
-  for (const double time : thesis_times) times.push_back(std::min(time / thesis_unit, 0.9999 * rules.follow) * unit);
+  for (const double time : thesis_times)
+    times.push_back(std::min(time / thesis_unit, 0.9999 * rules.follow) * unit);
   const Film film = film_impact<Dim>(bed, shot, rules, times);
   const ImpactPicture picture(film, title, 1200);
   std::vector<cv::Mat> rows(3);

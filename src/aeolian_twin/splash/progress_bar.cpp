@@ -35,8 +35,8 @@ void ProgressBar::at(double share, const std::string& task) {
   const auto full = static_cast<std::size_t>(std::lround(share * width));
   const double spent = std::chrono::duration<double>(now - begin_).count();
   const std::string left = share > 0 ? remaining(spent * (1 - share) / share) + " left" : "";
-  fmt::print(stderr, "\r[{}{}] {:3.0f} %  {}  {}\033[K", std::string(full, '#'), std::string(width - full, '.'),
-             100 * share, task, left);
+  fmt::print(stderr, "\r[{}{}] {:3.0f} %  {}  {}\033[K", std::string(full, '#'),
+             std::string(width - full, '.'), 100 * share, task, left);
   std::fflush(stderr);
 }
 

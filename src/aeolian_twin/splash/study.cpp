@@ -29,11 +29,13 @@ double StudyBeds<Dim>::roughness(std::size_t kind) const {
 }
 
 template <int Dim>
-StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progress, const std::atomic<bool>& stop) {
+StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progress,
+                        const std::atomic<bool>& stop) {
   std::vector<std::pair<std::size_t, std::uint64_t>> orders;
   for (std::size_t kind = 0; kind < study.beds.size(); ++kind)
     for (int i = 0; i < study.beds[kind].number; ++i)
-      orders.emplace_back(kind, derived_seed(study.seed, for_beds, 1000 * kind + static_cast<std::uint64_t>(i)));
+      orders.emplace_back(kind,
+                          derived_seed(study.seed, for_beds, 1000 * kind + static_cast<std::uint64_t>(i)));
   std::vector<std::optional<Bed<Dim>>> laid(orders.size());
   std::mutex telling;
   double done = 0;

@@ -33,7 +33,8 @@ using StudyProgress = std::function<void(double share, const std::string& task)>
 
 /// Lays the beds on all threads. Gives fewer of them, whole kinds, when `stop` becomes true.
 template <int Dim>
-StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progress, const std::atomic<bool>& stop);
+StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progress,
+                        const std::atomic<bool>& stop);
 
 /// Fires all impacts; when `stop` becomes true, the result has what is done.
 template <int Dim>
@@ -44,9 +45,9 @@ extern template struct StudyBeds<2>;
 extern template struct StudyBeds<3>;
 extern template StudyBeds<2> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
 extern template StudyBeds<3> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
-extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&, const StudyProgress&,
-                                                 const std::atomic<bool>&);
-extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&, const StudyProgress&,
-                                                 const std::atomic<bool>&);
+extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&,
+                                                 const StudyProgress&, const std::atomic<bool>&);
+extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&,
+                                                 const StudyProgress&, const std::atomic<bool>&);
 
 }  // namespace aeolian

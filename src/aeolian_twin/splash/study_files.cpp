@@ -69,21 +69,23 @@ void write_events_csv(const std::vector<StudyPoint>& points, const std::string& 
       "rebound_z_m_s,rebound_spin_rad_s,rebound_time_s,ejecta,reptation_m");
   for (std::size_t p = 0; p < points.size(); ++p) {
     for (const ImpactOutcome& o : points[p].outcomes) {
-      lines << static_cast<double>(p) << o.number << static_cast<double>(points[p].kind)
-            << o.shot.speed << o.shot.angle / degree << o.shot.size_ratio << points[p].roughness << o.shot.along
+      lines << static_cast<double>(p) << o.number << static_cast<double>(points[p].kind) << o.shot.speed
+            << o.shot.angle / degree << o.shot.size_ratio << points[p].roughness << o.shot.along
             << o.shot.across;
       if (o.contact)
         lines << o.contact->target << name_of(o.contact->step) << o.contact->normal_angle / degree
-              << o.contact->approach << o.contact->departure << o.contact->struck << o.contact->effective_mass;
+              << o.contact->approach << o.contact->departure << o.contact->struck
+              << o.contact->effective_mass;
       else
         lines << unknown << "" << unknown << unknown << unknown << unknown << unknown;
       if (o.rebound)
-        lines << o.rebound->velocity.x() << o.rebound->velocity.y() << o.rebound->velocity.z() << o.rebound->spin
-              << o.rebound->time;
+        lines << o.rebound->velocity.x() << o.rebound->velocity.y() << o.rebound->velocity.z()
+              << o.rebound->spin << o.rebound->time;
       else
         lines << unknown << unknown << unknown << unknown << unknown;
       double reptation = 0;
-      for (const RisenGrain& grain : o.ejecta) reptation += 2 * grain.velocity.x() * grain.velocity.z() / gravity;
+      for (const RisenGrain& grain : o.ejecta)
+        reptation += 2 * grain.velocity.x() * grain.velocity.z() / gravity;
       lines << static_cast<double>(o.ejecta.size()) << reptation;
       lines.end();
     }
@@ -106,16 +108,19 @@ void write_ejecta_csv(const std::vector<StudyPoint>& points, const std::string& 
   write_text_atomically(path, lines.text());
 }
 
-void write_summary_csv(const StudySettings& study, const std::vector<StudyPoint>& points, const std::string& path) {
+void write_summary_csv(const StudySettings& study, const std::vector<StudyPoint>& points,
+                       const std::string& path) {
   Lines lines(
-      "point,bed_kind,speed_m_s,angle_deg,size_ratio,roughness,impacts,quantity,mean,half_width,standard_error,"
+      "point,bed_kind,speed_m_s,angle_deg,size_ratio,roughness,impacts,quantity,mean,half_width,standard_"
+      "error,"
       "count,thesis_mean,thesis_half_width");
   for (std::size_t p = 0; p < points.size(); ++p)
     for (const Quantity& quantity : quantities(points[p].statistics)) {
       const StudyPoint& point = points[p];
-      lines << static_cast<double>(p) << static_cast<double>(point.kind) << point.speed << point.angle / degree
-            << point.size_ratio << point.roughness << point.statistics.impacts << quantity.name
-            << quantity.value.mean << quantity.value.half_width << quantity.value.error << quantity.value.count;
+      lines << static_cast<double>(p) << static_cast<double>(point.kind) << point.speed
+            << point.angle / degree << point.size_ratio << point.roughness << point.statistics.impacts
+            << quantity.name << quantity.value.mean << quantity.value.half_width << quantity.value.error
+            << quantity.value.count;
       const auto thesis = printed_value(study.thesis_case, quantity.name);
       lines << (thesis ? thesis->mean : unknown) << (thesis ? thesis->half_width : unknown);
       lines.end();
@@ -132,8 +137,9 @@ void write_beds_csv(const StudyBeds<Dim>& beds, const std::string& path) {
     for (std::size_t i = 0; i < beds.kinds[kind].size(); ++i) {
       const Bed<Dim>& bed = beds.kinds[kind][i];
       const BedState& s = bed.state;
-      lines << static_cast<double>(kind) << static_cast<double>(i) << s.grains << s.packing_fraction << s.coordination
-            << s.kinetic_energy << s.overlap_energy << s.roughness << bed.surface.mean_height() << bed.surface.top();
+      lines << static_cast<double>(kind) << static_cast<double>(i) << s.grains << s.packing_fraction
+            << s.coordination << s.kinetic_energy << s.overlap_energy << s.roughness
+            << bed.surface.mean_height() << bed.surface.top();
       lines.end();
     }
   write_text_atomically(path, lines.text());

@@ -13,7 +13,8 @@ void write_events_csv(const std::vector<StudyPoint>& points, const std::string& 
 void write_ejecta_csv(const std::vector<StudyPoint>& points, const std::string& path);
 /// One row a number: mean, half-width of the distribution and standard error, beside those of the thesis when
 /// the study is one of its cases.
-void write_summary_csv(const StudySettings& study, const std::vector<StudyPoint>& points, const std::string& path);
+void write_summary_csv(const StudySettings& study, const std::vector<StudyPoint>& points,
+                       const std::string& path);
 /// One row a bed: what can be said about it at rest.
 template <int Dim>
 void write_beds_csv(const StudyBeds<Dim>& beds, const std::string& path);

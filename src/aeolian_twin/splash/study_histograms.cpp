@@ -20,11 +20,14 @@ constexpr double degree = M_PI / 180;
 class StackedHistogram {
  public:
   StackedHistogram(std::size_t kinds, double low, double high, int bins)
-      : low_(low), width_((high - low) / bins), counts_(kinds, std::vector<double>(static_cast<std::size_t>(bins))) {}
+      : low_(low),
+        width_((high - low) / bins),
+        counts_(kinds, std::vector<double>(static_cast<std::size_t>(bins))) {}
 
   void add(std::size_t kind, double value) {
     const double bin = std::floor((value - low_) / width_);
-    if (bin >= 0 && bin < static_cast<double>(counts_[kind].size())) ++counts_[kind][static_cast<std::size_t>(bin)];
+    if (bin >= 0 && bin < static_cast<double>(counts_[kind].size()))
+      ++counts_[kind][static_cast<std::size_t>(bin)];
   }
 
   /// Each column reaches to the sum of its kind and those before, per impact.
@@ -75,7 +78,8 @@ std::size_t kind_of(Origin origin) {
 double limit_of(std::vector<double> values, double least) {
   if (values.empty()) return least;
   std::sort(values.begin(), values.end());
-  const double high = std::max(least, values[static_cast<std::size_t>(0.985 * static_cast<double>(values.size() - 1))]);
+  const double high =
+      std::max(least, values[static_cast<std::size_t>(0.985 * static_cast<double>(values.size() - 1))]);
   const double step = tic_step(high);
   return step * std::ceil(high / step);
 }
@@ -92,17 +96,21 @@ struct Panel {
 
 }  // namespace
 
-void plot_histograms(const StudyPoint& point, double diameter, const std::string& title, const std::string& path) {
+void plot_histograms(const StudyPoint& point, double diameter, const std::string& title,
+                     const std::string& path) {
   const std::vector<Panel> panels = {
       {"speed of ejecta [m/s]", [](const RisenGrain& g) { return g.velocity.norm(); }, false, false, 0.1},
-      {"vertical speed of all that leave [m/s]", [](const RisenGrain& g) { return g.velocity.z(); }, true, false, 0.1},
+      {"vertical speed of all that leave [m/s]", [](const RisenGrain& g) { return g.velocity.z(); }, true,
+       false, 0.1},
       {"angle from the vertical [°], forward positive",
-       [](const RisenGrain& g) { return std::atan2(g.velocity.x(), g.velocity.z()) / degree; }, false, true, 90},
-      {"origin along the flight [diameters]", [&](const RisenGrain& g) { return g.origin.x() / diameter; }, false,
-       true, 4}};
+       [](const RisenGrain& g) { return std::atan2(g.velocity.x(), g.velocity.z()) / degree; }, false, true,
+       90},
+      {"origin along the flight [diameters]", [&](const RisenGrain& g) { return g.origin.x() / diameter; },
+       false, true, 4}};
   std::ostringstream script;
   script << plot_style << "set multiplot layout 2,2\nset style fill solid 1 noborder\nset grid y\n"
-         << "set label 1 " << quoted(title) << " at screen 0.06, screen 0.965 left noenhanced font ',17' textcolor rgb measured\n"
+         << "set label 1 " << quoted(title)
+         << " at screen 0.06, screen 0.965 left noenhanced font ',17' textcolor rgb measured\n"
          << "set lmargin 9\nset rmargin 3\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Panel& panel = panels[p];
@@ -122,14 +130,18 @@ void plot_histograms(const StudyPoint& point, double diameter, const std::string
     histogram.write(script, name, static_cast<double>(std::max<std::size_t>(1, point.outcomes.size())));
     script << panel_place(p % 2 ? 0.57 : 0.08, p % 2 ? 0.97 : 0.48, p < 2 ? 0.86 : 0.41, p < 2 ? 0.56 : 0.11)
            << fmt::format("set xrange [{}:{}]\nset yrange [0:*]\nset xtics {}\nset boxwidth {}\n",
-                          panel.both_sides ? -high : 0, high, panel.least == 90 ? 30 : tic_step(high * (panel.both_sides ? 2 : 1)),
+                          panel.both_sides ? -high : 0, high,
+                          panel.least == 90 ? 30 : tic_step(high * (panel.both_sides ? 2 : 1)),
                           0.92 * histogram.width())
            << "set xlabel " << quoted(panel.label) << "\nset ylabel 'grains per impact'\n"
-           << (p == 1 ? "set key at screen 0.97, screen 0.99 right top horizontal maxrows 2 samplen 1 width -1 reverse Left\n" : "unset key\n") << "plot ";
+           << (p == 1 ? "set key at screen 0.97, screen 0.99 right top horizontal maxrows 2 samplen 1 width "
+                        "-1 reverse Left\n"
+                      : "unset key\n")
+           << "plot ";
     for (std::size_t k = kinds.size(); k-- > 0;) {
       if (k == kind_of(Origin::rebound) && !panel.with_rebound) continue;
-      script << fmt::format("${} using 1:{} with boxes lc rgb '{}' title '{}'{}", name, k + 2, kinds[k].colour,
-                            kinds[k].title, k > 0 ? ", " : "\n");
+      script << fmt::format("${} using 1:{} with boxes lc rgb '{}' title '{}'{}", name, k + 2,
+                            kinds[k].colour, kinds[k].title, k > 0 ? ", " : "\n");
     }
     script << "unset label\n";
   }

@@ -49,8 +49,10 @@ std::vector<Quantity> quantities(const ImpactStatistics& s) {
       {"origin_distance_m", s.origin_distance},
       {"from_upper_layers", {s.from_upper_layers, unknown, unknown, s.origin_up.count}},
   };
-  const std::array<std::pair<Origin, const char*>, 4> kinds = {
-      {{Origin::target, "target"}, {Origin::brink, "brink"}, {Origin::anti_brink, "anti_brink"}, {Origin::other, "other"}}};
+  const std::array<std::pair<Origin, const char*>, 4> kinds = {{{Origin::target, "target"},
+                                                                {Origin::brink, "brink"},
+                                                                {Origin::anti_brink, "anti_brink"},
+                                                                {Origin::other, "other"}}};
   for (const auto& [origin, name] : kinds) {
     const auto found = s.by_origin.find(origin);
     if (found == s.by_origin.end()) continue;

@@ -24,7 +24,8 @@ std::vector<double> list(YamlSection& section, const std::string& key, double lo
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!(values[i] >= low && values[i] <= high))
       section.refuse_element(key, i, fmt::format("must be from {:g} to {:g}", low, high));
-    if (i > 0 && !(values[i] > values[i - 1])) section.refuse_element(key, i, "must be more than the one before");
+    if (i > 0 && !(values[i] > values[i - 1]))
+      section.refuse_element(key, i, "must be more than the one before");
   }
   return values;
 }
@@ -64,8 +65,8 @@ BedKind read_bed(YamlSection section, const StudySettings& study, double size_sp
   BedKind kind;
   BedRecipe& recipe = kind.recipe;
   const bool discs = study.dimensions == 2;
-  const std::string packing =
-      discs ? word(section, "packing", {"loose", "dense", "poured", "struck"}) : word(section, "packing", {"poured", "struck"});
+  const std::string packing = discs ? word(section, "packing", {"loose", "dense", "poured", "struck"})
+                                    : word(section, "packing", {"poured", "struck"});
   recipe.packing = packing == "loose"    ? BedRecipe::Packing::loose
                    : packing == "dense"  ? BedRecipe::Packing::dense
                    : packing == "poured" ? BedRecipe::Packing::poured
@@ -126,7 +127,8 @@ StudySettings read_study(const std::string& file) {
   if (root.has("thesis_case"))
     study.thesis_case = word(root, "thesis_case", {"A", "B", "C", "D", "E", "F", "G", "H", "I"});
   if (root.has("ejecta_number"))
-    study.calibrated = word(root, "ejecta_number", {"as_simulated", "coarse_sand_experiment"}) != "as_simulated";
+    study.calibrated =
+        word(root, "ejecta_number", {"as_simulated", "coarse_sand_experiment"}) != "as_simulated";
   if (root.has("filmed_impact")) study.filmed = root.integer("filmed_impact", 0, study.impacts - 1);
   root.finish();
   return study;

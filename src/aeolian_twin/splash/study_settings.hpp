@@ -19,16 +19,16 @@ struct BedKind {
 struct StudySettings {
   std::string name = "CASE A";    ///< what the pictures call it
   std::string thesis_case = "A";  ///< A to I, whose numbers stand beside the study's; empty: none
-  int dimensions = 2;       ///< 2: discs, 3: spheres
-  double diameter = 0.02;   ///< of the bed's grains [m]
-  double density = 2000;    ///< [kg/m^3]
+  int dimensions = 2;             ///< 2: discs, 3: spheres
+  double diameter = 0.02;         ///< of the bed's grains [m]
+  double density = 2000;          ///< [kg/m^3]
   ContactLaw law;
   double steps_per_contact = 36;
   std::vector<BedKind> beds{{}};
-  std::vector<double> speeds{30};           ///< [m/s]
-  std::vector<double> angles{M_PI / 12};    ///< [rad]
-  std::vector<double> size_ratios{1};       ///< grain that is fired over those of the bed
-  int impacts = 80;                 ///< of each speed, angle, size ratio and kind of bed
+  std::vector<double> speeds{30};         ///< [m/s]
+  std::vector<double> angles{M_PI / 12};  ///< [rad]
+  std::vector<double> size_ratios{1};     ///< grain that is fired over those of the bed
+  int impacts = 80;                       ///< of each speed, angle, size ratio and kind of bed
   ImpactRules rules;
   std::uint64_t seed = 1;
   bool calibrated = false;  ///< number of ejecta of the table: that of the coarse-sand experiment

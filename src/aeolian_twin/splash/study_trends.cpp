@@ -14,7 +14,8 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
-constexpr std::array<const char*, 6> colours = {"#7a1f5c", "#c2571a", "#d9a441", "#3c6e9f", "#2f7d5b", "#8a8f98"};
+constexpr std::array<const char*, 6> colours = {"#7a1f5c", "#c2571a", "#d9a441",
+                                                "#3c6e9f", "#2f7d5b", "#8a8f98"};
 
 /// Curves by what stays the same along each: the kind of bed, and an angle or a speed.
 using Curves = std::map<std::pair<std::size_t, double>, Curve>;
@@ -42,7 +43,8 @@ void plot(std::ostream& script, const std::string& panel, const Curves& curves, 
     const char* colour = colours[colour_of[key.second] % colours.size()];
     const std::string title = key.first == 0 ? fmt::format("title '{:.3g} {}'", key.second, unit) : "notitle";
     plots += fmt::format(
-        "{}${} using 1:2:3:4 with yerrorbars lw 1 ps 0 lc rgb '{}' notitle, ${} using 1:2 with linespoints lw 1.8 pt 7 ps "
+        "{}${} using 1:2:3:4 with yerrorbars lw 1 ps 0 lc rgb '{}' notitle, ${} using 1:2 with linespoints "
+        "lw 1.8 pt 7 ps "
         "0.5 dt {} lc rgb '{}' {}",
         plots.empty() ? "plot " : ", ", name, colour, name, key.first + 1, colour, title);
   }
@@ -72,12 +74,13 @@ void plot_trends(const std::vector<StudyPoint>& points, double diameter, const s
   }
   std::ostringstream script;
   script << plot_style << "set multiplot layout 2,2\nset label 1 " << quoted(title)
-         << " at screen 0.06, screen 0.965 left noenhanced font ',17' textcolor rgb measured\nset yrange [0:*]\n";
+         << " at screen 0.06, screen 0.965 left noenhanced font ',17' textcolor rgb measured\nset yrange "
+            "[0:*]\n";
   const auto panel = [&](int place, const std::string& x, const std::string& y, const char* key) {
     script << panel_place(place % 2 ? 0.57 : 0.08, place % 2 ? 0.97 : 0.48, place < 2 ? 0.88 : 0.41,
                           place < 2 ? 0.57 : 0.10)
-           << "set xrange [0:*]\nset xlabel " << quoted(x) << "\nset ylabel " << quoted(y) << "\nset key " << key
-           << " samplen 1.5\n";
+           << "set xrange [0:*]\nset xlabel " << quoted(x) << "\nset ylabel " << quoted(y) << "\nset key "
+           << key << " samplen 1.5\n";
   };
   panel(0, "impact speed [√(g d)]", "ejecta per impact", "top left");
   plot(script, "number", number, "°");

@@ -26,12 +26,13 @@ WebpAnimation::WebpAnimation(int width, int height) : encoder_(std::make_unique<
   if (!WebPAnimEncoderOptionsInit(&options) || !WebPConfigInit(&encoder_->config))
     throw Error("animation: libwebp is of another version than its headers");
   options.anim_params.loop_count = 0;
-  encoder_->config.quality = 82;
+  encoder_->config.quality = 70;
   encoder_->config.method = 4;
   encoder_->width = width;
   encoder_->height = height;
   encoder_->animation.reset(WebPAnimEncoderNew(width, height, &options));
-  if (!encoder_->animation) throw Error(fmt::format("animation: none of {} x {} pixels can be made", width, height));
+  if (!encoder_->animation)
+    throw Error(fmt::format("animation: none of {} x {} pixels can be made", width, height));
 }
 
 WebpAnimation::~WebpAnimation() = default;

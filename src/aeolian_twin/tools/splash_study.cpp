@@ -27,9 +27,9 @@ std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal's handler sets it");
 
 std::string in_words(const StudySettings& study, const StudyPoint& point) {
-  std::string text = fmt::format("{}: {:.3g} m/s, {:.3g}° below the horizontal, on {} of {:.3g} mm", study.name,
-                                 point.speed, point.angle / degree, study.dimensions == 2 ? "discs" : "spheres",
-                                 1e3 * study.diameter);
+  std::string text =
+      fmt::format("{}: {:.3g} m/s, {:.3g}° below the horizontal, on {} of {:.3g} mm", study.name, point.speed,
+                  point.angle / degree, study.dimensions == 2 ? "discs" : "spheres", 1e3 * study.diameter);
   if (point.size_ratio != 1) text += fmt::format(", {:.3g} times their size", point.size_ratio);
   return text;
 }
@@ -37,15 +37,16 @@ std::string in_words(const StudySettings& study, const StudyPoint& point) {
 void print_point(const StudyPoint& point) {
   const ImpactStatistics& s = point.statistics;
   fmt::print(
-      "{:.3g} m/s, {:.3g}°, size {:.3g}, roughness {:.3g}: {} impacts, rebound {:.3f} of the speed ({:.3f} along, {:.3f} "
+      "{:.3g} m/s, {:.3g}°, size {:.3g}, roughness {:.3g}: {} impacts, rebound {:.3f} of the speed ({:.3f} "
+      "along, {:.3f} "
       "up), {:.2f} ± {:.2f} ejecta at {:.3g} m/s\n",
-      point.speed, point.angle / degree, point.size_ratio, point.roughness, s.impacts, s.speed.mean, s.along.mean,
-      s.up.mean, s.number.mean, s.number.error, s.ejecta_speed.mean);
+      point.speed, point.angle / degree, point.size_ratio, point.roughness, s.impacts, s.speed.mean,
+      s.along.mean, s.up.mean, s.number.mean, s.number.error, s.ejecta_speed.mean);
 }
 
 template <int Dim>
-void write_pictures(const StudySettings& study, const StudyBeds<Dim>& beds, const std::vector<StudyPoint>& points,
-                    const std::string& out) {
+void write_pictures(const StudySettings& study, const StudyBeds<Dim>& beds,
+                    const std::vector<StudyPoint>& points, const std::string& out) {
   const StudyPoint& first = points.front();
   if (points.size() == 1)
     plot_histograms(first, study.diameter, in_words(study, first), out + "/histograms.svg");
@@ -73,8 +74,8 @@ int run_study(const StudySettings& study, const std::string& command, const std:
   }
   std::size_t done = 0;
   for (const StudyPoint& point : points) done += point.outcomes.size();
-  const std::size_t all = study.beds.size() * study.speeds.size() * study.angles.size() * study.size_ratios.size() *
-                          static_cast<std::size_t>(study.impacts);
+  const std::size_t all = study.beds.size() * study.speeds.size() * study.angles.size() *
+                          study.size_ratios.size() * static_cast<std::size_t>(study.impacts);
   if (done == 0) {
     fmt::print(stderr, "splash_study: stopped before the first impact was over, nothing is written\n");
     return stopped_code;
@@ -87,7 +88,8 @@ int run_study(const StudySettings& study, const std::string& command, const std:
   if (done == all) study_table(study, points, command).write(out + "/splash_table.csv");
   write_pictures(study, beds, points, out);
   if (done < all) {
-    fmt::print(stderr, "splash_study: stopped; {} of {} impacts are done and written to {}\n", done, all, out);
+    fmt::print(stderr, "splash_study: stopped; {} of {} impacts are done and written to {}\n", done, all,
+               out);
     return stopped_code;
   }
   fmt::print("{} impacts -> {}\n", done, out);
@@ -113,13 +115,13 @@ int run(int argc, char** argv) {
   int impacts = 0;
   std::uint64_t seed = 1;
   app.add_option("--config", config, "YAML file of the study, see config/splash");
-  const auto* speed_option =
-      app.add_option("--speed", speed, "of impact [m/s], instead of the config's")->check(CLI::Range(1e-3, 1000.));
+  const auto* speed_option = app.add_option("--speed", speed, "of impact [m/s], instead of the config's")
+                                 ->check(CLI::Range(1e-3, 1000.));
   const auto* angle_option =
       app.add_option("--angle", angle, "of impact below the horizontal [degrees], instead of the config's")
           ->check(CLI::Range(1., 90.));
-  const auto* impacts_option =
-      app.add_option("--impacts", impacts, "of each kind, instead of the config's")->check(CLI::Range(1, 1000000));
+  const auto* impacts_option = app.add_option("--impacts", impacts, "of each kind, instead of the config's")
+                                   ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", seed, "decides everything random, default 1");
   app.add_option("--out", out, "folder for the results, created when it does not exist")->required();
   if (const auto code = parse(app, argc, argv)) return *code;

@@ -14,7 +14,9 @@ GrainDynamics<2> rows(const std::vector<std::pair<int, int>>& spans) {
   GrainDynamics<2> grains(GrainWorld<2>{});
   for (std::size_t row = 0; row < spans.size(); ++row)
     for (int column = spans[row].first; column <= spans[row].second; ++column)
-      grains.add({(2 * column + 1 + static_cast<double>(row % 2)) * r, r + std::sqrt(3.) * r * static_cast<double>(row)}, r);
+      grains.add({(2 * column + 1 + static_cast<double>(row % 2)) * r,
+                  r + std::sqrt(3.) * r * static_cast<double>(row)},
+                 r);
   return grains;
 }
 
@@ -55,7 +57,8 @@ TEST(BedSurface, SpheresAroundAPeriodicRidge) {
     for (int column = 0; column < 20; ++column) add((2 * column + 1) * r, line, r);
   std::vector<std::vector<int>> ridge(4);  // over x = 0, where the bed begins anew
   for (int line = 0; line < 4; ++line)
-    for (const double x : {36., 38., 0., 2., 4.}) ridge[static_cast<std::size_t>(line)].push_back(add(x * r, line, 2.8 * r));
+    for (const double x : {36., 38., 0., 2., 4.})
+      ridge[static_cast<std::size_t>(line)].push_back(add(x * r, line, 2.8 * r));
   const BedSurface surface(grains, r, 40 * r, 8 * r);
   EXPECT_NEAR(surface.roughness(), 1. / 20, 1e-12);
   for (const auto& line : ridge) {
@@ -67,9 +70,7 @@ TEST(BedSurface, SpheresAroundAPeriodicRidge) {
   }
 }
 
-TEST(BedSurface, NoGrains) {
-  EXPECT_THROW(BedSurface(GrainDynamics<2>(GrainWorld<2>{}), r, 1, 0), Error);
-}
+TEST(BedSurface, NoGrains) { EXPECT_THROW(BedSurface(GrainDynamics<2>(GrainWorld<2>{}), r, 1, 0), Error); }
 
 }  // namespace
 }  // namespace aeolian

@@ -37,8 +37,8 @@ TEST(Impact, OneFreeGrainAnswersWithItsOwnMass) {
   if (outcome.contact->struck == 1) {
     EXPECT_NEAR(outcome.contact->effective_mass, 1, 0.1);
   }
-  EXPECT_NEAR(outcome.contact->approach,
-              shot.speed * std::sin(shot.angle + outcome.contact->normal_angle), 0.01 * shot.speed);
+  EXPECT_NEAR(outcome.contact->approach, shot.speed * std::sin(shot.angle + outcome.contact->normal_angle),
+              0.01 * shot.speed);
 }
 
 TEST(Impact, NeverMoreEnergyThanCameIn) {
