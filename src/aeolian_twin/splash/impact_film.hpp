@@ -27,6 +27,7 @@ struct Film {
   double diameter;         ///< of the bed's grains [m]
   double top;              ///< of the bed [m]
   double length;           ///< of the bed [m]
+  bool periodic;           ///< the bed goes on on all sides
   Eigen::Vector3d impact;  ///< where the grain is when it meets the bed [m]
 };
 

@@ -111,13 +111,18 @@ class ImpactPicture::Drawing {
     set(colour);
     cairo_fill(c());
   }
+  /// `most` is how wide it may be, zero: as it is.
   void text(double x, double baseline, double size, bool bold, const Colour& colour, const std::string& words,
-            double anchor = 0) {
+            double anchor = 0, double most = 0) {
     cairo_select_font_face(c(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c(), size);
     cairo_text_extents_t extents;
     cairo_text_extents(c(), words.c_str(), &extents);
+    if (most > 0 && extents.x_advance > most) {
+      cairo_set_font_size(c(), size * most / extents.x_advance);
+      cairo_text_extents(c(), words.c_str(), &extents);
+    }
     set(colour);
     cairo_move_to(c(), x - anchor * extents.x_advance, baseline);
     cairo_show_text(c(), words.c_str());
@@ -140,13 +145,13 @@ class ImpactPicture::Drawing {
 
 ImpactPicture::ImpactPicture(const Film& film, std::string title, int width)
     : film_(film), title_(std::move(title)), width_(width) {
-  const double seen = std::min(film.length, 34 * film.diameter);
+  const double seen = std::clamp(film.length, 22 * film.diameter, 34 * film.diameter);
   scale_ = width / seen;
-  left_ = std::clamp(film.impact.x() - 0.5 * seen, std::min(0.0, film.length - seen),
-                     std::max(0.0, film.length - seen));
-  if (film.length <= seen) left_ = 0.5 * (film.length - seen);
-  bottom_ = std::max(-0.25 * film.diameter, film.top - 13 * film.diameter);
-  top_ = film.top + 11.5 * film.diameter;
+  left_ = film.impact.x() - 0.5 * seen;
+  if (!film.periodic)
+    left_ = film.length > seen ? std::clamp(left_, 0.0, film.length - seen) : 0.5 * (film.length - seen);
+  bottom_ = std::max(-0.25 * film.diameter, film.top - 0.38 * seen);
+  top_ = film.top + 0.34 * seen;
   height_ = 2 * static_cast<int>(std::round(0.5 * scale_ * (top_ - bottom_) + 0.5 * 0.06 * width));
 }
 
@@ -184,7 +189,7 @@ cv::Mat ImpactPicture::draw(std::size_t index) const {
   drawing.line(0, floor, width_, floor, 1.2 * unit, soft);
 
   drawing.text(28 * unit, 54 * unit, 34 * unit, true, ink, time_text(frame.time));
-  drawing.text(28 * unit, 86 * unit, 19 * unit, false, soft, title_);
+  drawing.text(28 * unit, 86 * unit, 19 * unit, false, soft, title_, 0, width_ - 56 * unit);
 
   const double bar = round_length(0.2 * width_ / scale_);
   const double y = 0.5 * (floor + height_);

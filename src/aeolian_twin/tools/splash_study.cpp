@@ -53,11 +53,13 @@ void write_pictures(const StudySettings& study, const StudyBeds<Dim>& beds,
   else
     plot_trends(points, study.diameter, study.name, out + "/trends.svg");
   if (stop) return;
-  const auto& of_kind = beds.kinds[first.kind];
-  for (const ImpactOutcome& outcome : first.outcomes) {
+  // The fastest of those at the first angle.
+  const StudyPoint& shown = points[std::min(study.speeds.size(), points.size()) - 1];
+  const auto& of_kind = beds.kinds[shown.kind];
+  for (const ImpactOutcome& outcome : shown.outcomes) {
     if (outcome.number != study.filmed || !outcome.contact) continue;
     const Bed<Dim>& bed = of_kind[static_cast<std::size_t>(outcome.number) % of_kind.size()];
-    write_impact_pictures<Dim>(bed, outcome.shot, study.rules, in_words(study, first), out);
+    write_impact_pictures<Dim>(bed, outcome.shot, study.rules, in_words(study, shown), out);
   }
 }
 
