@@ -39,13 +39,13 @@ std::vector<Bed<2>> loose_beds(const GrainWorld<2>& world) {
   return beds;
 }
 
-/// The rows of a dense bed, a thousandth of a radius apart.
+/// The rows of a dense bed, more apart than a target moves while it is hit.
 Bed<2> blown_apart(const Bed<2>& dense) {
   GrainDynamics<2> grains(dense.grains.world());
   for (const int grain : dense.grains.numbers())
-    grains.add(1.001 * dense.grains.position(grain), dense.grains.radius(grain));
+    grains.add(1.06 * dense.grains.position(grain), dense.grains.radius(grain));
   BedRecipe recipe;
-  recipe.length = 1.001 * dense.length;
+  recipe.length = 1.06 * dense.length;
   return settled_bed(std::move(grains), recipe);
 }
 

@@ -110,7 +110,7 @@ void plot_histograms(const StudyPoint& point, double diameter, const std::string
   std::ostringstream script;
   script << plot_style << "set multiplot layout 2,2\nset style fill solid 1 noborder\nset grid y\n"
          << "set label 1 " << quoted(title)
-         << " at screen 0.06, screen 0.965 left noenhanced font ',17' textcolor rgb measured\n"
+         << " at screen 0.06, screen 0.97 left noenhanced font ',17' textcolor rgb measured\n"
          << "set lmargin 9\nset rmargin 3\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Panel& panel = panels[p];
@@ -128,7 +128,7 @@ void plot_histograms(const StudyPoint& point, double diameter, const std::string
     }
     const std::string name = fmt::format("panel{}", p);
     histogram.write(script, name, static_cast<double>(std::max<std::size_t>(1, point.outcomes.size())));
-    script << panel_place(p % 2 ? 0.57 : 0.08, p % 2 ? 0.97 : 0.48, p < 2 ? 0.86 : 0.41, p < 2 ? 0.56 : 0.11)
+    script << panel_place(p % 2 ? 0.57 : 0.08, p % 2 ? 0.97 : 0.48, p < 2 ? 0.85 : 0.41, p < 2 ? 0.56 : 0.11)
            << fmt::format("set xrange [{}:{}]\nset yrange [0:*]\nset xtics {}\nset boxwidth {}\n",
                           panel.both_sides ? -high : 0, high,
                           panel.least == 90 ? 30 : tic_step(high * (panel.both_sides ? 2 : 1)),
