@@ -134,8 +134,8 @@ void plot_histograms(const StudyPoint& point, double diameter, const std::string
                           panel.least == 90 ? 30 : tic_step(high * (panel.both_sides ? 2 : 1)),
                           0.92 * histogram.width())
            << "set xlabel " << quoted(panel.label) << "\nset ylabel 'grains per impact'\n"
-           << (p == 1 ? "set key at screen 0.97, screen 0.99 right top horizontal maxrows 2 samplen 1 width "
-                        "-1 reverse Left\n"
+           << (p == 1 ? "set key at screen 0.52, screen 0.945 center top horizontal maxrows 1 samplen 1 "
+                        "width -2 reverse Left\n"
                       : "unset key\n")
            << "plot ";
     for (std::size_t k = kinds.size(); k-- > 0;) {
