@@ -27,7 +27,7 @@ WebpAnimation::WebpAnimation(int width, int height) : encoder_(std::make_unique<
     throw Error("animation: libwebp is of another version than its headers");
   options.anim_params.loop_count = 0;
   encoder_->config.quality = 70;
-  encoder_->config.method = 4;
+  encoder_->config.method = 2;
   encoder_->width = width;
   encoder_->height = height;
   encoder_->animation.reset(WebPAnimEncoderNew(width, height, &options));
