@@ -21,6 +21,7 @@ int main(int count, char** arguments) {
   aeolian::shipped_rows(table);
   aeolian::impact_rows(table);
   aeolian::box_rows(table);
+  aeolian::sleep_rows(table);
   fmt::print(
       "# Accuracy of the splash\n\nPrinted by `./twin bench splash_accuracy`. Targets are those of Werner "
       "(1987) and of the "

@@ -13,7 +13,8 @@ void table_rows(AccuracyTable& table);          ///< tables of events against wh
 void impact_rows(AccuracyTable& table);         ///< simulated impacts (secs. 5.2 to 5.4); takes minutes
 void contact_state_rows(AccuracyTable& table);  ///< effective mass (check S3), a part of those
 void shipped_rows(AccuracyTable& table);        ///< the tables in config/splash/tables against experiments
-void box_rows(AccuracyTable& table);            ///< impacts in larger boxes (trap T12) and among sleepers
+void box_rows(AccuracyTable& table);            ///< impacts in a larger box (trap T12)
+void sleep_rows(AccuracyTable& table);          ///< impacts among sleeping grains
 /// @}
 
 /// Prints a script for gnuplot that draws how the splash functions differ, as a PNG on its standard output.
