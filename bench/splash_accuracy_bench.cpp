@@ -18,6 +18,10 @@ int main(int count, char** arguments) {
   aeolian::experiment_rows(table);
   aeolian::literature_rows(table);
   aeolian::table_rows(table);
+  aeolian::shipped_rows(table);
+  aeolian::impact_rows(table);
+  aeolian::box_rows(table);
+  aeolian::sleep_rows(table);
   fmt::print(
       "# Accuracy of the splash\n\nPrinted by `./twin bench splash_accuracy`. Targets are those of Werner "
       "(1987) and of the "

@@ -1,0 +1,110 @@
+// Impacts in a larger box, and among grains that sleep: nothing changes (splash specification, trap T12).
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "splash_rows.hpp"
+
+#include "aeolian_core/grains/impact_statistics.hpp"
+#include "aeolian_core/grains/impact_study.hpp"
+
+namespace aeolian {
+namespace {
+
+struct Series {
+  std::vector<double> numbers, speeds, rebounds;
+  double seconds = 0;
+  MeanValue number, speed, rebound;
+};
+
+Series fired(const std::vector<Bed<2>>& beds, int impacts, const ImpactRules& rules) {
+  ImpactSeries settings;
+  settings.impacts = impacts;
+  settings.seed = 5;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto outcomes = fire_series<2>(beds, settings, rules);
+  Series series;
+  series.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (const ImpactOutcome& o : outcomes) {
+    series.numbers.push_back(static_cast<double>(o.ejecta.size()));
+    if (o.rebound) series.rebounds.push_back(o.rebound->velocity.norm() / o.shot.speed);
+    for (const RisenGrain& grain : o.ejecta) series.speeds.push_back(grain.velocity.norm());
+  }
+  const ImpactStatistics statistics = impact_statistics<2>(outcomes, beds.front());
+  series.number = statistics.number;
+  series.speed = statistics.ejecta_speed;
+  series.rebound = statistics.speed;
+  return series;
+}
+
+/// Kolmogorov and Smirnov's two-sample distance, over the one that chance passes in one of a hundred cases.
+double distance(std::vector<double> a, std::vector<double> b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  double most = 0;
+  for (const auto* both : {&a, &b})
+    for (const double x : *both) {
+      const auto below = [x](const std::vector<double>& v) {
+        return static_cast<double>(std::upper_bound(v.begin(), v.end(), x) - v.begin()) /
+               static_cast<double>(v.size());
+      };
+      most = std::max(most, std::abs(below(a) - below(b)));
+    }
+  const double n = static_cast<double>(a.size());
+  const double m = static_cast<double>(b.size());
+  return most / (1.63 * std::sqrt((n + m) / (n * m)));
+}
+
+void compare(AccuracyTable& table, const std::string& what, const Series& reference, const Series& other) {
+  const auto row = [&](const std::string& name, const MeanValue& a, const MeanValue& b) {
+    const double error = std::hypot(a.error, b.error);
+    table.row(what + ": " + name, a.mean, b.mean, 3 * error, error);
+  };
+  row("ejecta", reference.number, other.number);
+  row("speed of ejecta [m/s]", reference.speed, other.speed);
+  row("rebound speed over impact's", reference.rebound, other.rebound);
+  table.range_row(what + ": distance of the distributions of numbers (1: chance in 1 of 100 cases)", 0, 1,
+                  distance(reference.numbers, other.numbers));
+  table.range_row(what + ": distance of the distributions of rebound speeds", 0, 1,
+                  distance(reference.rebounds, other.rebounds));
+}
+
+std::vector<Bed<2>> beds_of(int grains, double length, int count) {
+  BedRecipe recipe;
+  recipe.grains = grains;
+  recipe.length = length;
+  std::vector<Bed<2>> beds;
+  for (int i = 0; i < count; ++i)
+    beds.push_back(make_bed(recipe, GrainWorld<2>{}, 20 + static_cast<std::uint64_t>(i)));
+  return beds;
+}
+
+}  // namespace
+
+void box_rows(AccuracyTable& table) {
+  constexpr int impacts = 32;
+  table.section("Simulated impacts: a larger box",
+                "CASE A on level loose beds (trap T12). Tolerance: three standard errors of the difference.");
+  const Series reference = fired(beds_of(384, 0.673, 4), impacts, {});
+  const Series wide = fired(beds_of(4 * 384, 2 * 0.673, 2), impacts, {});
+  compare(table, "a box twice as wide and deep", reference, wide);
+}
+
+void sleep_rows(AccuracyTable& table) {
+  constexpr int impacts = 16;
+  table.section(
+      "Simulated impacts: sleeping grains",
+      "CASE A on a level loose bed of 5000 grains. Sleep: grains below 0.005 sqrt(g d) for 20 contact "
+      "times. Tolerance: three standard errors of the difference.");
+  const std::vector<Bed<2>> large = beds_of(5000, 125 * 0.0210, 1);
+  ImpactRules sleepy;
+  sleepy.sleep = {0.005 * std::sqrt(gravity * 0.02), 20 * 7.2e-5};
+  const Series awake = fired(large, impacts, {});
+  const Series asleep = fired(large, impacts, sleepy);
+  compare(table, "5000 grains with sleep", awake, asleep);
+  table.range_row("5000 grains: time without sleep over time with it", 5, 1000,
+                  awake.seconds / asleep.seconds);
+}
+
+}  // namespace aeolian
