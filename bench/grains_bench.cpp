@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "aeolian_core/grains/grain_dynamics.hpp"
+#include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {

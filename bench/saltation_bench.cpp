@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "aeolian_core/grains/composed_splash.hpp"
-#include "aeolian_core/grains/kok_renno.hpp"
+#include "aeolian_core/grains/splash/composed_splash.hpp"
+#include "aeolian_core/grains/splash/kok_renno.hpp"
 #include "aeolian_core/saltation/distribution_kernel.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/literal_iteration.hpp"

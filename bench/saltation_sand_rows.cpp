@@ -3,9 +3,9 @@
 
 #include "saltation_rows.hpp"
 
-#include "aeolian_core/grains/coarse_sand.hpp"
-#include "aeolian_core/grains/composed_splash.hpp"
-#include "aeolian_core/grains/kok_renno.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/composed_splash.hpp"
+#include "aeolian_core/grains/splash/kok_renno.hpp"
 #include "aeolian_core/saltation/flux_law.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/profiles.hpp"

@@ -11,8 +11,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "aeolian_core/grains/splash_choice.hpp"
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 
 namespace aeolian {
 namespace {

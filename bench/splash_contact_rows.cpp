@@ -4,8 +4,8 @@
 
 #include "splash_rows.hpp"
 
-#include "aeolian_core/grains/impact_statistics.hpp"
-#include "aeolian_core/grains/impact_study.hpp"
+#include "aeolian_core/grains/impacts/impact_statistics.hpp"
+#include "aeolian_core/grains/impacts/impact_study.hpp"
 
 namespace aeolian {
 namespace {

@@ -4,9 +4,9 @@
 #include "splash_rows.hpp"
 #include "splash_sample.hpp"
 
-#include "aeolian_core/grains/coarse_sand.hpp"
-#include "aeolian_core/grains/reptation.hpp"
-#include "aeolian_core/grains/splash_choice.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/reptation.hpp"
+#include "aeolian_core/grains/splash/splash_choice.hpp"
 
 namespace aeolian {
 namespace {

@@ -7,7 +7,7 @@
 #include "splash_sample.hpp"
 #include <fmt/format.h>
 
-#include "aeolian_core/grains/splash_choice.hpp"
+#include "aeolian_core/grains/splash/splash_choice.hpp"
 
 namespace aeolian {
 namespace {

@@ -5,11 +5,11 @@
 #include "splash_rows.hpp"
 #include "splash_sample.hpp"
 
-#include "aeolian_core/grains/beladjine.hpp"
-#include "aeolian_core/grains/distribution_splash.hpp"
-#include "aeolian_core/grains/kok_renno.hpp"
-#include "aeolian_core/grains/laemmel.hpp"
-#include "aeolian_core/grains/splash_choice.hpp"
+#include "aeolian_core/grains/splash/beladjine.hpp"
+#include "aeolian_core/grains/splash/distribution_splash.hpp"
+#include "aeolian_core/grains/splash/kok_renno.hpp"
+#include "aeolian_core/grains/splash/laemmel.hpp"
+#include "aeolian_core/grains/splash/splash_choice.hpp"
 
 namespace aeolian {
 namespace {

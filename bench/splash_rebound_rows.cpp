@@ -5,7 +5,7 @@
 
 #include "splash_rows.hpp"
 
-#include "aeolian_core/grains/rebound_model.hpp"
+#include "aeolian_core/grains/splash/rebound_model.hpp"
 
 namespace aeolian {
 namespace {

@@ -5,8 +5,8 @@
 #include "splash_rows.hpp"
 #include "splash_sample.hpp"
 
-#include "aeolian_core/grains/coarse_sand.hpp"
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 
 namespace aeolian {
 namespace {

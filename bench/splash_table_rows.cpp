@@ -4,8 +4,8 @@
 #include "splash_rows.hpp"
 #include "splash_sample.hpp"
 
-#include "aeolian_core/grains/splash_choice.hpp"
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 
 namespace aeolian {
 namespace {

@@ -38,7 +38,8 @@ template <class Visit>
 void for_each_include(Visit visit) {
   const std::regex include(R"re(#include\s*[<"]([^>"]+)[>"])re");
   for (const auto& [room, lower] : allowed)
-    for (const auto& entry : fs::directory_iterator(core / room)) {
+    for (const auto& entry : fs::recursive_directory_iterator(core / room)) {
+      if (!entry.is_regular_file()) continue;
       const std::string text = text_of(entry.path());
       for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it)
         visit(room, entry.path().filename().string(), (*it)[1].str());

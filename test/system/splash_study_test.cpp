@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sys/wait.h>
 
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 #include "aeolian_core/surface/csv.hpp"
 
 namespace aeolian {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "aeolian_core/grains/distribution_splash.hpp"
+#include "aeolian_core/grains/splash/distribution_splash.hpp"
 #include "aeolian_core/saltation/splash_kernel.hpp"
 
 namespace aeolian {

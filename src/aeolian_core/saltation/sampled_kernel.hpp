@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "aeolian_core/grains/grain.hpp"
-#include "aeolian_core/grains/splash.hpp"
+#include "aeolian_core/grains/splash/splash.hpp"
 #include "aeolian_core/saltation/splash_kernel.hpp"
 
 namespace aeolian {

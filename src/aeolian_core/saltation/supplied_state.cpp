@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aeolian_core/grains/coarse_sand.hpp"
-#include "aeolian_core/grains/composed_splash.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/composed_splash.hpp"
 #include "aeolian_core/saltation/approach.hpp"
 #include "aeolian_core/surface/error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "aeolian_core/grains/splash.hpp"
+#include "aeolian_core/grains/splash/splash.hpp"
 #include "aeolian_core/saltation/steady_state.hpp"
 
 namespace aeolian {

@@ -1,8 +1,8 @@
 #include "aeolian_twin/saltation/splash_choice.hpp"
 
-#include "aeolian_core/grains/coarse_sand.hpp"
-#include "aeolian_core/grains/composed_splash.hpp"
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/composed_splash.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 #include "aeolian_core/saltation/delta_kernel.hpp"
 #include "aeolian_core/saltation/distribution_kernel.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "aeolian_core/grains/impact.hpp"
+#include "aeolian_core/grains/impacts/impact.hpp"
 
 namespace aeolian {
 

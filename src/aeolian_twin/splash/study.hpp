@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "aeolian_core/grains/impact_statistics.hpp"
+#include "aeolian_core/grains/impacts/impact_statistics.hpp"
 #include "aeolian_twin/splash/study_settings.hpp"
 
 namespace aeolian {

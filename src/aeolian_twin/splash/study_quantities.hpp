@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "aeolian_core/grains/impact_statistics.hpp"
+#include "aeolian_core/grains/impacts/impact_statistics.hpp"
 
 namespace aeolian {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "aeolian_core/grains/impact_study.hpp"
+#include "aeolian_core/grains/impacts/impact_study.hpp"
 
 namespace aeolian {
 

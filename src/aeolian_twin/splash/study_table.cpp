@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aeolian_core/grains/coarse_sand.hpp"
+#include "aeolian_core/grains/splash/coarse_sand.hpp"
 
 namespace aeolian {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "aeolian_core/grains/splash_table.hpp"
+#include "aeolian_core/grains/splash/splash_table.hpp"
 #include "aeolian_twin/splash/study.hpp"
 
 namespace aeolian {

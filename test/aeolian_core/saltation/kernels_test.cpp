@@ -4,8 +4,8 @@
 #include "thesis_bed.hpp"
 #include <gtest/gtest.h>
 
-#include "aeolian_core/grains/composed_splash.hpp"
-#include "aeolian_core/grains/kok_renno.hpp"
+#include "aeolian_core/grains/splash/composed_splash.hpp"
+#include "aeolian_core/grains/splash/kok_renno.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/sampled_kernel.hpp"
 #include "aeolian_core/surface/error.hpp"
