@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "aeolian_core/bedforms/frame_field.hpp"
 #include "aeolian_core/surface/grid_geometry.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
@@ -13,5 +14,9 @@ namespace aeolian {
 /// slope exceeds tan_repose by more than a thousandth of itself. Returns the volume moved [m^3].
 double avalanche(const GridGeometry& geometry, std::vector<double>& height, double tan_repose, bool periodic,
                  TileMask& active);
+
+/// The same for a whole field with pads filled, before and after; only slopes that are too steep and what
+/// they reach are visited.
+double avalanche(FrameField& height, int stations, double cell, double tan_repose, bool periodic);
 
 }  // namespace aeolian

@@ -6,6 +6,8 @@
 
 #include "aeolian_core/bedforms/avalanche.hpp"
 #include "aeolian_core/bedforms/impact_sweep.hpp"
+#include "aeolian_core/bedforms/lateral_spread.hpp"
+#include "aeolian_core/bedforms/lay_down.hpp"
 #include "aeolian_core/bedforms/relief.hpp"
 #include "aeolian_core/bedforms/slope_flux.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
@@ -15,38 +17,12 @@ namespace aeolian {
 namespace {
 
 /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
-/// cell. Half of it is stable; a quarter keeps the error of the growth rate below that of the cells.
-constexpr double step_limit = 0.25;
+/// cell: as long as is stable.
+constexpr double step_limit = 0.5;
 
 void require(bool allowed, const char* name, double value, const char* range) {
   if (!allowed)
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
-}
-
-/// Tiles in which a slope, to any of the eight neighbours, exceeds repose.
-TileMask too_steep(const GridGeometry& g, const std::vector<double>& height, double tan_repose,
-                   bool periodic) {
-  const double straight = tan_repose * g.cell() * 1.001;
-  const double diagonal = straight * std::sqrt(2.0);
-  TileMask result(g);
-  for (int y = 0; y < g.ny(); ++y) {
-    const int up = y + 1 < g.ny() ? y + 1 : 0;
-    const bool has_up = y + 1 < g.ny() || periodic;
-    for (int x = 0; x < g.nx(); ++x) {
-      const int right = x + 1 < g.nx() ? x + 1 : 0;
-      const bool has_right = x + 1 < g.nx() || periodic;
-      const double here = height[g.index(x, y)];
-      const bool steep = (has_right && std::abs(height[g.index(right, y)] - here) > straight) ||
-                         (has_up && std::abs(height[g.index(x, up)] - here) > straight) ||
-                         (has_right && has_up &&
-                          (std::abs(height[g.index(right, up)] - here) > diagonal ||
-                           std::abs(height[g.index(right, y)] - height[g.index(x, up)]) > diagonal));
-      if (!steep) continue;
-      result.activate(x, y);
-      result.activate(right, up);
-    }
-  }
-  return result;
 }
 
 TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
@@ -111,13 +87,15 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double cell = geometry.cell();
   const double tan_impact = std::tan(forcing.impact_angle);
   const double tan_repose = std::tan(forcing.grain.angle_of_repose);
-  const double spread = parameters_.lateral_spread * hop / cell;
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
   ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
+  const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
 
   const std::vector<double> start = height;
-  std::vector<double> dune, bed, above(height.size()), deposition, scratch;
+  FrameField dune, bed;
+  FrameField activity(frame.stations(), frame.rows());
+  FrameField scratch(frame.stations(), frame.rows());
   frame.enter(dune_surface(geometry, height, parameters_.relief_scale, periodic), dune);
   frame.enter(height, bed);
 
@@ -128,28 +106,15 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
   for (double step = 0; step < steps; ++step) {
-    for (std::size_t i = 0; i < bed.size(); ++i) above[i] = bed[i] - dune[i];
-    impacts.run(above);
-    deposition = impacts.deposition();
-    spread_across(frame, spread, deposition, scratch);
-    double eroded = 0;
-    for (std::size_t i = 0; i < bed.size(); ++i) {
-      bed[i] += depth * (deposition[i] - impacts.erosion()[i]);
-      eroded += impacts.erosion()[i];
-    }
-    volume.moved += eroded * depth * area;
-    volume.inflow += impacts.inflow() * depth * area;
-    volume.outflow += impacts.outflow() * depth * area;
-    for (double& d : deposition) d = std::max(d, 0.0);  // rolls only where grains come down
-    apply_slope_flux(frame, cell, slope_scale, deposition, dt, bed, scratch);
-
-    frame.leave(bed, height);
-    TileMask steep = too_steep(geometry, height, tan_repose, periodic);
-    if (!steep.empty()) {
-      volume.moved += avalanche(geometry, height, tan_repose, periodic, steep);
-      frame.enter(height, bed);
-    }
+    impacts.run(bed, dune, depth);
+    const LaidDown laid = lay_down(frame, impacts, spread, depth, bed, activity);
+    volume.moved += laid.eroded * depth * area;
+    volume.inflow += laid.inflow * depth * area;
+    volume.outflow += laid.outflow * depth * area;
+    apply_slope_flux(frame, cell, slope_scale, activity, laid.strongest, dt, bed, scratch);
+    volume.moved += avalanche(bed, frame.stations(), cell, tan_repose, periodic);
   }
+  frame.leave(bed, height);
   for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;
   return {changed_tiles(geometry, start, height), volume};
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "aeolian_core/measure/kernel.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
 namespace aeolian {

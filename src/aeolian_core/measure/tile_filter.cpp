@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "aeolian_core/measure/kernel.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "aeolian_core/measure/kernel.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/twin/quantile.hpp"

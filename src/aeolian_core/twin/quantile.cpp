@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "aeolian_core/measure/kernel.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 namespace {

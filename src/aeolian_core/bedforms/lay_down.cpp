@@ -1,0 +1,94 @@
+#include "aeolian_core/bedforms/lay_down.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "aeolian_core/surface/kernel.hpp"
+
+namespace aeolian {
+namespace {
+
+constexpr int stations_at_once = 16;
+
+/// Rows from the lines on both sides of each.
+AEOLIAN_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __restrict lines,
+                            double* __restrict rows) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) rows[i] = lines[i + 1] + upper * (lines[i] - lines[i + 1]);
+}
+
+AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, const double* __restrict erosion,
+                           const double* __restrict deposition, double* __restrict bed,
+                           double* __restrict activity, double* __restrict eroded,
+                           double* __restrict strongest) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double lost = erosion[i + 1] + upper * (erosion[i] - erosion[i + 1]);
+    const double gained = deposition[i];
+    bed[i] += depth * (gained - lost);
+    const double active = gained > 0 ? gained : 0;
+    activity[i] = active;
+    eroded[i] += lost;
+    strongest[i] = strongest[i] > active ? strongest[i] : active;
+  }
+}
+
+int wrapped(int i, int n) { return (i % n + n) % n; }
+
+LaidDown lay_down_stations(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread,
+                           double depth, int begin, int end, FrameField& bed, FrameField& activity) {
+  const int n = frame.stations();
+  const int rows = frame.rows();
+  const bool periodic = frame.periodic();
+  const int from = periodic ? begin - spread.reach() : std::max(0, begin - spread.reach());
+  const int to = periodic ? end + spread.reach() : std::min(n, end + spread.reach());
+  FrameField deposition(to - from, rows);
+  for (int i = from; i < to; ++i) {
+    const int station = wrapped(i, n);
+    scatter(rows, frame.place(station).upper, sweep.deposition().at(station), deposition.at(i - from));
+    deposition.fill_mirrored_pads(i - from, periodic);
+  }
+  spread.run(deposition, from, to);
+
+  LaidDown result;
+  std::vector<double> eroded(static_cast<std::size_t>(rows), 0.0);
+  std::vector<double> strongest(static_cast<std::size_t>(rows), 0.0);
+  for (int i = begin; i < end; ++i) {
+    const double upper = frame.place(i).upper;
+    update(rows, depth, upper, sweep.erosion().at(i), deposition.at(i - from), bed.at(i), activity.at(i),
+           eroded.data(), strongest.data());
+    bed.fill_pads(i, periodic);
+    activity.fill_pads(i, periodic);
+    if (periodic) continue;
+    // The share of the outermost lines that falls beside the grid has crossed its border.
+    result.inflow += (1 - upper) * sweep.erosion().at(i)[0] + upper * sweep.erosion().at(i)[rows];
+    result.outflow += (1 - upper) * sweep.deposition().at(i)[0] + upper * sweep.deposition().at(i)[rows];
+  }
+  for (const double e : eroded) result.eroded += e;
+  result.strongest = *std::max_element(strongest.begin(), strongest.end());
+  return result;
+}
+
+}  // namespace
+
+LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
+                  FrameField& bed, FrameField& activity) {
+  const int blocks = (frame.stations() + stations_at_once - 1) / stations_at_once;
+  std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
+  tbb::parallel_for(0, blocks, [&](int block) {
+    const int begin = block * stations_at_once;
+    parts[static_cast<std::size_t>(block)] =
+        lay_down_stations(frame, sweep, spread, depth, begin, std::min(begin + stations_at_once, frame.stations()),
+                          bed, activity);
+  });
+  LaidDown result{0, sweep.inflow(), sweep.outflow(), 0};
+  for (const LaidDown& part : parts) {
+    result.eroded += part.eroded;
+    result.inflow += part.inflow;
+    result.outflow += part.outflow;
+    result.strongest = std::max(result.strongest, part.strongest);
+  }
+  return result;
+}
+
+}  // namespace aeolian
