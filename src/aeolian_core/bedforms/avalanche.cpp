@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include <tbb/parallel_for.h>
 
@@ -12,139 +11,175 @@
 namespace aeolian {
 namespace {
 
-/// A slope is let alone until it exceeds repose by this share.
-constexpr double tolerance = 1e-3;
+constexpr int patch_rows = 32;
+constexpr int strip = 32;  ///< stations that are relaxed by themselves before what crosses their ends
 
-struct Step {
-  int x, y;
-};
-constexpr std::array<Step, 8> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+/// Slopes are let alone until they exceed repose by this share, and come to rest as much below it.
+constexpr double slack = 0.01;
 
-/// Cells that wait to be looked at, each at most once at a time.
-class Worklist {
- public:
-  explicit Worklist(const GridGeometry& geometry) : geometry_(geometry), waiting_(geometry.size(), 0) {}
-  void push(CellIndex cell) {
-    std::uint8_t& waiting = waiting_[geometry_.index(cell)];
-    if (waiting) return;
-    waiting = 1;
-    cells_.push_back(cell);
-  }
-  bool pop(CellIndex& cell) {
-    if (next_ == cells_.size()) return false;
-    cell = cells_[next_++];
-    waiting_[geometry_.index(cell)] = 0;
-    if (next_ > 4096 && 2 * next_ > cells_.size()) {
-      cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(next_));
-      next_ = 0;
-    }
-    return true;
-  }
+const double diagonal = std::sqrt(2.0);
 
- private:
-  const GridGeometry& geometry_;
-  std::vector<CellIndex> cells_;
-  std::vector<std::uint8_t> waiting_;
-  std::size_t next_ = 0;
-};
-
-/// Works the list off; `height(cell)` is a reference, `touched(cell)` is told of each cell that changed.
-/// Returns the sum of the heights moved.
-template <class Height, class Touched>
-double slide(const GridGeometry& geometry, double tan_repose, bool periodic, Worklist& worklist,
-             Height&& height, Touched&& touched) {
-  const double straight = tan_repose * geometry.cell();
-  const std::array<double, 2> allowed{straight, straight * std::sqrt(2.0)};
-  const auto wrap = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
-  double moved = 0;
-  CellIndex cell;
-  while (worklist.pop(cell)) {
-    double& from = height(cell);
-    bool slid = false;
-    for (const Step& step : steps) {
-      CellIndex to{cell.x + step.x, cell.y + step.y};
-      if (periodic) to = {wrap(to.x, geometry.nx()), wrap(to.y, geometry.ny())};
-      if (!geometry.contains(to)) continue;
-      double& other = height(to);
-      const double limit = allowed[step.x != 0 && step.y != 0];
-      const double excess = std::abs(from - other) - limit;
-      if (!(excess > tolerance * limit)) continue;
-      // Half the excess brings the pair exactly to repose, whichever of the two is the higher.
-      const double amount = std::copysign(excess / 2, from - other);
-      from -= amount;
-      other += amount;
-      moved += excess / 2;
-      touched(to);
-      worklist.push(to);
-      slid = true;
-    }
-    if (!slid) continue;
-    touched(cell);
-    worklist.push(cell);
-  }
-  return moved;
+/// What two cells exchange whose difference of height is given, so that they come to rest.
+inline __attribute__((always_inline)) double slide(double difference, double straight, double share) {
+  const double begin = straight * (1 + slack);
+  const double rest = straight * (1 - slack);
+  const double down = difference > begin ? difference - rest : 0;
+  const double up = difference < -begin ? difference + rest : 0;
+  return share * (down + up);
 }
 
-/// 1 where the slope from a cell to one of the four neighbours ahead, or between two of them, is too steep.
-AEOLIAN_KERNEL void mark_steep(std::ptrdiff_t count, double straight, double diagonal,
-                               const double* __restrict h, const double* __restrict behind,
-                               std::uint8_t* __restrict steep) {
+inline __attribute__((always_inline)) double size(double x) { return x < 0 ? -x : x; }
+
+/// Whether any slope among two stations' rows 0 ... count is too steep; `ahead` of these rows have one more.
+AEOLIAN_KERNEL bool any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,
+                              const double* __restrict h, const double* __restrict behind) {
+  const double along = straight * (1 + slack);
+  const double oblique = along * 1.4142135623730951;
+  std::int64_t any = 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i) any |= size(behind[i] - h[i]) > along;
+  for (std::ptrdiff_t i = 0; i < ahead; ++i)
+    any |= (size(h[i + 1] - h[i]) > along) | (size(behind[i + 1] - h[i]) > oblique) |
+           (size(behind[i] - h[i + 1]) > oblique);
+  return any != 0;
+}
+
+/// Exchange between h[i] and other[i].
+AEOLIAN_KERNEL void relax_pairs(std::ptrdiff_t count, double straight, double* __restrict h,
+                                double* __restrict other, double* __restrict moved) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double across = std::abs(h[i + 1] - h[i]);
-    const double along = std::abs(behind[i] - h[i]);
-    const double one = std::abs(behind[i + 1] - h[i]);
-    const double other = std::abs(behind[i] - h[i + 1]);
-    const double s = across > along ? across : along;
-    const double d = one > other ? one : other;
-    steep[i] = static_cast<std::uint8_t>((s > straight) | (d > diagonal));
+    const double amount = slide(h[i] - other[i], straight, 0.5);
+    h[i] -= amount;
+    other[i] += amount;
+    moved[i] += size(amount);
   }
+}
+
+/// Exchange between neighbours of one row, all at once, hence only a third.
+AEOLIAN_KERNEL void relax_row(std::ptrdiff_t pairs, double straight, double* __restrict h,
+                              double* __restrict moved) {
+  double amount[patch_rows];
+  for (std::ptrdiff_t i = 0; i < pairs; ++i) {
+    amount[i] = slide(h[i] - h[i + 1], straight, 1.0 / 3);
+    moved[i] += size(amount[i]);
+  }
+  for (std::ptrdiff_t i = 0; i < pairs; ++i) h[i] -= amount[i];
+  for (std::ptrdiff_t i = 0; i < pairs; ++i) h[i + 1] += amount[i];
 }
 
 }  // namespace
 
-double avalanche(const GridGeometry& geometry, std::vector<double>& height, double tan_repose, bool periodic,
-                 TileMask& active) {
-  Worklist worklist(geometry);
-  active.for_each([&](const CellRange& range) {
-    for (int y = range.y0; y < range.y1; ++y)
-      for (int x = range.x0; x < range.x1; ++x) worklist.push({x, y});
-  });
-  const double moved = slide(
-      geometry, tan_repose, periodic, worklist,
-      [&](CellIndex at) -> double& { return height[geometry.index(at)]; },
-      [&](CellIndex at) { active.activate(at.x, at.y); });
-  return moved * geometry.cell() * geometry.cell();
+Avalanches::Avalanches(int stations, int rows, double cell, double tan_repose, bool periodic)
+    : stations_(stations),
+      rows_(rows),
+      patches_((rows + patch_rows - 1) / patch_rows),
+      area_(cell * cell),
+      straight_(tan_repose * cell),
+      periodic_(periodic),
+      disturbed_(static_cast<std::size_t>(stations) * static_cast<std::size_t>(patches_)) {}
+
+/// The station behind; itself behind the last of an open field.
+int Avalanches::next(int station) const {
+  return station + 1 < stations_ ? station + 1 : periodic_ ? 0 : station;
 }
 
-double avalanche(FrameField& height, int stations, double cell, double tan_repose, bool periodic) {
-  const int rows = height.rows();
-  const double straight = tan_repose * cell * (1 + tolerance);
-  const double diagonal = straight * std::sqrt(2.0);
-  const auto width = static_cast<std::size_t>(rows);
-  std::vector<std::uint8_t> steep(static_cast<std::size_t>(stations) * width);
-  std::vector<std::uint8_t> any(static_cast<std::size_t>(stations), 0);
-  tbb::parallel_for(0, stations, [&](int i) {
-    std::uint8_t* const marks = &steep[static_cast<std::size_t>(i) * width];
-    const int behind = i + 1 < stations ? i + 1 : periodic ? 0 : i;
-    mark_steep(rows, straight, diagonal, height.at(i), height.at(behind), marks);
-    any[static_cast<std::size_t>(i)] = std::any_of(marks, marks + rows, [](std::uint8_t m) { return m != 0; });
-  });
-  if (std::none_of(any.begin(), any.end(), [](std::uint8_t m) { return m != 0; })) return 0;
+bool Avalanches::steep(const FrameField& height, int station, int patch) const {
+  const int begin = patch * patch_rows;
+  const int count = std::min(patch_rows, rows_ - begin);
+  const bool last = begin + count == rows_;
+  const double* const h = height.at(station);
+  const double* const behind = height.at(next(station));
+  if (any_steep(count, last ? count - 1 : count, straight_, h + begin, behind + begin)) return true;
+  if (!last || !periodic_) return false;
+  const double along = straight_ * (1 + slack);
+  const int end = rows_ - 1;
+  return std::abs(h[0] - h[end]) > along || std::abs(behind[0] - h[end]) > along * diagonal ||
+         std::abs(behind[end] - h[0]) > along * diagonal;
+}
 
-  const GridGeometry geometry(0, 0, cell, rows, stations);
-  Worklist worklist(geometry);
-  for (int i = 0; i < stations; ++i) {
-    if (!any[static_cast<std::size_t>(i)]) continue;
-    for (int row = 0; row < rows; ++row)
-      if (steep[static_cast<std::size_t>(i) * width + static_cast<std::size_t>(row)])
-        // Marks stand for a square of four cells, whose diagonals its two corners in this station see.
-        for (const int corner : {row, row + 1 < rows ? row + 1 : periodic ? 0 : row}) worklist.push({corner, i});
+/// One round of exchanges among the slopes of a patch. Returns the sum of the heights moved.
+double Avalanches::relax(FrameField& height, int station, int patch) {
+  const int begin = patch * patch_rows;
+  const int count = std::min(patch_rows, rows_ - begin);
+  const bool last = begin + count == rows_;
+  const int ahead = last ? count - 1 : count;
+  double* const h = height.at(station) + begin;
+  double* const behind = height.at(next(station)) + begin;
+  std::array<double, patch_rows> moved{};
+  if (next(station) != station) {
+    relax_pairs(count, straight_, h, behind, moved.data());
+    relax_pairs(ahead, straight_ * diagonal, h, behind + 1, moved.data());
+    relax_pairs(ahead, straight_ * diagonal, h + 1, behind, moved.data());
   }
-  const double moved = slide(
-      geometry, tan_repose, periodic, worklist, [&](CellIndex at) -> double& { return height.at(at.y)[at.x]; },
-      [](CellIndex) {});
-  for (int i = 0; i < stations; ++i) height.fill_pads(i, periodic);
-  return moved * cell * cell;
+  relax_row(ahead, straight_, h, moved.data());
+  if (last && periodic_) {
+    double* const first = height.at(station);
+    double* const first_behind = height.at(next(station));
+    relax_pairs(1, straight_, h + count - 1, first, moved.data());
+    relax_pairs(1, straight_ * diagonal, h + count - 1, first_behind, moved.data());
+    relax_pairs(1, straight_ * diagonal, first, behind + count - 1, moved.data());
+  }
+  double sum = 0;
+  for (const double m : moved) sum += m;
+  return sum;
+}
+
+/// Has the patches around one that moved looked at, among the stations [begin, end).
+void Avalanches::disturb(int station, int patch, int begin, int end) {
+  const bool round = periodic_ && begin == 0 && end == stations_;
+  for (int i = station - 1; i <= station + 1; ++i) {
+    const int at = round ? (i + stations_) % stations_ : i;
+    if (at < begin || at >= end) continue;
+    for (int p = patch - 1; p <= patch + 1; ++p) {
+      const int there = periodic_ ? (p + patches_) % patches_ : p;
+      if (there < 0 || there >= patches_) continue;
+      disturbed_[static_cast<std::size_t>(at) * static_cast<std::size_t>(patches_) +
+                 static_cast<std::size_t>(there)] = 1;
+    }
+  }
+}
+
+/// Relaxes the disturbed patches of the stations [begin, end) until none is too steep. Downwind, which for
+/// ripples is down the steep side.
+double Avalanches::relax_strip(FrameField& height, int begin, int end) {
+  double moved = 0;
+  for (bool any = true; any;) {
+    any = false;
+    for (int station = begin; station < end; ++station)
+      for (int patch = 0; patch < patches_; ++patch) {
+        std::uint8_t& disturbed = disturbed_[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
+                                             static_cast<std::size_t>(patch)];
+        if (!disturbed) continue;
+        disturbed = 0;
+        if (!steep(height, station, patch)) continue;
+        moved += relax(height, station, patch);
+        disturb(station, patch, begin, end);
+        any = true;
+      }
+  }
+  return moved;
+}
+
+double Avalanches::run(FrameField& height) {
+  const int strips = (stations_ + strip - 1) / strip;
+  const auto row_of = [&](int station) {
+    return disturbed_.begin() + static_cast<std::ptrdiff_t>(station) * patches_;
+  };
+  std::vector<double> moved(static_cast<std::size_t>(strips));
+  tbb::parallel_for(0, strips, [&](int n) {
+    const int begin = n * strip;
+    const int end = std::min(begin + strip, stations_) - 1;  // the last one's slopes reach the next strip
+    std::fill(row_of(begin), row_of(end), std::uint8_t{1});
+    moved[static_cast<std::size_t>(n)] = relax_strip(height, begin, end);
+  });
+  for (int n = 0; n < strips; ++n) {
+    const int last = std::min((n + 1) * strip, stations_) - 1;
+    std::fill(row_of(last), row_of(last + 1), std::uint8_t{1});
+  }
+  double total = relax_strip(height, 0, stations_);
+  for (const double m : moved) total += m;
+  if (total > 0)
+    for (int i = 0; i < stations_; ++i) height.fill_pads(i, periodic_);
+  return total * area_;
 }
 
 }  // namespace aeolian

@@ -1,10 +1,37 @@
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstddef>
+#include <new>
 #include <utility>
 #include <vector>
 
 namespace aeolian {
+
+/// Memory in few large pages where the system has them: neighbours across a large field lie a page apart.
+template <class T>
+struct LargePages {
+  using value_type = T;
+  LargePages() = default;
+  template <class U>
+  explicit LargePages(const LargePages<U>&) {}
+  T* allocate(std::size_t count) {
+    constexpr std::size_t page = std::size_t{1} << 21;
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < page / 2) return static_cast<T*>(::operator new(bytes, std::align_val_t{64}));
+    const std::size_t whole = (bytes + page - 1) / page * page;
+    void* const memory = ::operator new(whole, std::align_val_t{page});
+    madvise(memory, whole, MADV_HUGEPAGE);
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) {
+    constexpr std::size_t page = std::size_t{1} << 21;
+    ::operator delete(memory, std::align_val_t{count * sizeof(T) < page / 2 ? 64 : page});
+  }
+  friend bool operator==(const LargePages&, const LargePages&) { return true; }
+  friend bool operator!=(const LargePages&, const LargePages&) { return false; }
+};
 
 /// Values of the cells of a wind frame, station by station: the rows of a station lie side by side, so that
 /// one instruction works on several lines along the wind at once. Each station has `pad` values more before
@@ -23,6 +50,8 @@ class FrameField {
     return values_.data() + static_cast<std::size_t>(station) * stride_ + pad;
   }
   int rows() const { return rows_; }
+  /// Distance of a row's values at neighbouring stations.
+  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(stride_); }
 
   /// Fills the pads of a station: with the rows beyond a periodic border, or with the outermost row.
   void fill_pads(int station, bool periodic) {
@@ -60,7 +89,7 @@ class FrameField {
 
   int rows_ = 0;
   std::size_t stride_ = 0;
-  std::vector<double> values_;
+  std::vector<double, LargePages<double>> values_;
 };
 
 }  // namespace aeolian

@@ -11,7 +11,7 @@
 namespace aeolian {
 namespace {
 
-constexpr int bundle_lines = 64;  ///< lines that are swept together: what they remember fits a first cache
+constexpr int bundle_lines = 256;  ///< lines that are swept together: what they remember fits a first cache
 constexpr int lag = 2;            ///< stations by which a stage's result is behind what it reads
 constexpr int stages = 2;
 
@@ -106,9 +106,9 @@ class ImpactSweep::Bundle {
   }
 
  private:
-  double* height(int stage, int station) { return height_[at(stage)][at(station & 7)].data(); }
-  double* erosion(int stage, int station) { return erosion_[at(stage)][at(station & 7)].data(); }
-  double* deposition(int stage, int station) { return deposition_[at(stage)][at(station & 7)].data(); }
+  double* height(int stage, int station) { return height_[at(stage)][at(station & 3)].data(); }
+  double* erosion(int stage, int station) { return erosion_[at(stage)][at(station & 3)].data(); }
+  double* deposition(int stage, int station) { return deposition_[at(stage)][at(station & 3)].data(); }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   /// Picks this bundle's lines, counted from its first, that are on the grid at any of the stations in work.
@@ -242,8 +242,8 @@ class ImpactSweep::Bundle {
   Stretch live_{};
   Balance balance_;
   std::array<HopStage, stages> stage_;
-  /// What the stages work with, at the last eight stations.
-  std::array<std::array<std::vector<double>, 8>, stages> height_, erosion_, deposition_;
+  /// What the stages work with, at the last four stations.
+  std::array<std::array<std::vector<double>, 4>, stages> height_, erosion_, deposition_;
 };
 
 /// Puts right at the last station of a periodic bed what the first round left of the difference between what

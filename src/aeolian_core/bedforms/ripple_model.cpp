@@ -90,6 +90,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
   ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
+  Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
   const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
 
   const std::vector<double> start = height;
@@ -112,7 +113,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     volume.inflow += laid.inflow * depth * area;
     volume.outflow += laid.outflow * depth * area;
     apply_slope_flux(frame, cell, slope_scale, activity, laid.strongest, dt, bed, scratch);
-    volume.moved += avalanche(bed, frame.stations(), cell, tan_repose, periodic);
+    volume.moved += avalanches.run(bed);
   }
   frame.leave(bed, height);
   for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;

@@ -21,15 +21,16 @@ WindFrame::WindFrame(const GridGeometry& geometry, double direction, bool period
   if (std::abs(drift_) * stations_ < 1e-3) drift_ = 0;
   step_ = geometry.cell() * std::hypot(1, drift_);
   for (int i = 0; i < stations_; ++i) {
-    const double upper = place(i).upper;
+    places_.push_back(computed_place(i));
+    const double upper = places_.back().upper;
     blur_ += upper * (1 - upper) / stations_;
   }
-  const int last = place(stations_ - 1).offset;
+  const int last = places_.back().offset;
   first_line_ = periodic_ ? 0 : -std::max(1, last);
   end_line_ = periodic_ ? rows_ : rows_ + 1 - std::min(1, last);
 }
 
-WindFrame::Place WindFrame::place(int station) const {
+WindFrame::Place WindFrame::computed_place(int station) const {
   // Half a row's shift makes q - 1 the row of line 0 at station 0, with nothing in row q.
   const double at = 1 + drift_ * station;
   const double row = std::floor(at + 1e-9);

@@ -35,7 +35,10 @@ class WindFrame {
     double upper;
   };
   /// Where the lines lie at a station, which may be off the grid.
-  Place place(int station) const;
+  Place place(int station) const {
+    if (station >= 0 && station < stations_) return places_[static_cast<std::size_t>(station)];
+    return computed_place(station);
+  }
 
   /// Lines that have part in the grid: first_line() <= j < end_line().
   int first_line() const { return first_line_; }
@@ -46,6 +49,8 @@ class WindFrame {
   void leave(const FrameField& frame, std::vector<double>& grid) const;
 
  private:
+  Place computed_place(int station) const;
+
   int stations_;
   int rows_;
   bool transposed_;
@@ -54,6 +59,7 @@ class WindFrame {
   double drift_ = 0;
   double step_ = 0;
   double blur_ = 0;
+  std::vector<Place> places_;  ///< at the stations of the grid
   int first_line_ = 0;
   int end_line_ = 0;
 };
