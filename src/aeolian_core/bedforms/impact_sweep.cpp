@@ -11,9 +11,9 @@
 namespace aeolian {
 namespace {
 
-constexpr int bundle_lines = 256;  ///< lines that are swept together: what they remember fits a first cache
+constexpr int bundle_lines = 128;  ///< lines that are swept together: what they remember fits a first cache
 constexpr int lag = 2;            ///< stations by which a stage's result is behind what it reads
-constexpr int stages = 2;
+constexpr int stages = 3;
 
 AEOLIAN_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __restrict bed,
                            const double* __restrict dune, double* __restrict height) {
@@ -24,16 +24,28 @@ AEOLIAN_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __r
   }
 }
 
+/// Heights for the next stage: after a step at the rate of the first, or half a step at the mean of two.
 AEOLIAN_KERNEL void predict(std::ptrdiff_t count, double depth, const double* __restrict height,
                             const double* __restrict erosion, const double* __restrict deposition,
                             double* __restrict next) {
   for (std::ptrdiff_t i = 0; i < count; ++i) next[i] = height[i] + depth * (deposition[i] - erosion[i]);
 }
 
-AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, const double* __restrict b,
-                            double* __restrict mean) {
-  for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = 0.5 * (a[i] + b[i]);
+AEOLIAN_KERNEL void predict_half(std::ptrdiff_t count, double depth, const double* __restrict height,
+                                 const double* __restrict erosion, const double* __restrict deposition,
+                                 const double* __restrict erosion_1, const double* __restrict deposition_1,
+                                 double* __restrict next) {
+  const double quarter = 0.25 * depth;
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    next[i] = height[i] + quarter * ((deposition[i] - erosion[i]) + (deposition_1[i] - erosion_1[i]));
 }
+
+AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, const double* __restrict b,
+                            const double* __restrict c, double* __restrict mean) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = (1.0 / 6) * (a[i] + b[i] + 4 * c[i]);
+}
+
+constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
 int modulo(int i, int n) { return (i % n + n) % n; }
 
@@ -78,7 +90,7 @@ class ImpactSweep::Bundle {
  public:
   Bundle(ImpactSweep& sweep, const FrameField& bed, const FrameField& dune, double depth, int begin, int end)
       : sweep_(sweep), frame_(sweep.frame_), law_(sweep.law_), bed_(bed), dune_(dune), depth_(depth),
-        begin_(begin), end_(end), stage_{HopStage(end - begin), HopStage(end - begin)} {
+        begin_(begin), end_(end), stage_{HopStage(end - begin), HopStage(end - begin), HopStage(end - begin)} {
     const auto lines = static_cast<std::size_t>(end - begin);
     for (auto& ring : height_)
       for (auto& line : ring) line.assign(lines, 0.0);
@@ -93,12 +105,18 @@ class ImpactSweep::Bundle {
       if (!set_live(station)) continue;
       read(station);
       run_stage(0, station, first);
-      if (station - lag < first) continue;
-      const int behind = station - lag;
-      predict(live_.end - live_.begin, depth_, height(0, behind) + live_.begin,
-              erosion(0, behind) + live_.begin, deposition(0, behind) + live_.begin,
-              height(1, behind) + live_.begin);
-      run_stage(1, station - lag, first);
+      const int begin = live_.begin;
+      const int count = live_.end - live_.begin;
+      if (const int k = station - lag; k >= first) {
+        predict(count, depth_, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
+                height(1, k) + begin);
+        run_stage(1, k, first);
+      }
+      if (const int k = station - 2 * lag; k >= first) {
+        predict_half(count, depth_, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
+                     erosion(1, k) + begin, deposition(1, k) + begin, height(2, k) + begin);
+        run_stage(2, k, first);
+      }
       const int done = station - stages * lag;
       if (done >= 0 && done < frame_.stations()) write(done);
     }
@@ -106,9 +124,9 @@ class ImpactSweep::Bundle {
   }
 
  private:
-  double* height(int stage, int station) { return height_[at(stage)][at(station & 3)].data(); }
-  double* erosion(int stage, int station) { return erosion_[at(stage)][at(station & 3)].data(); }
-  double* deposition(int stage, int station) { return deposition_[at(stage)][at(station & 3)].data(); }
+  double* height(int stage, int station) { return height_[at(stage)][at(station & 7)].data(); }
+  double* erosion(int stage, int station) { return erosion_[at(stage)][at(station & 7)].data(); }
+  double* deposition(int stage, int station) { return deposition_[at(stage)][at(station & 7)].data(); }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   /// Picks this bundle's lines, counted from its first, that are on the grid at any of the stations in work.
@@ -184,7 +202,7 @@ class ImpactSweep::Bundle {
       visit(line - begin_);
   }
 
-  /// Books the flux at the ends of lines, half for each stage.
+  /// Books the flux at the ends of lines, by the weight of each stage.
   void account(int s, int station) {
     const HopStage& stage = stage_[at(s)];
     const int last = frame_.stations() - 1;
@@ -192,14 +210,14 @@ class ImpactSweep::Bundle {
       if (station != 0 && station != last) return;
       for (int line = 0; line < end_ - begin_; ++line) {
         const int q = begin_ + line + frame_.place(station == 0 ? 0 : last + 1).offset;
-        if (station == 0) sweep_.seam_in_[at(modulo(q, frame_.rows()))] += 0.5 * stage.flux_in(line);
-        if (station == last) sweep_.seam_out_[at(modulo(q, frame_.rows()))] += 0.5 * stage.flux_out(line);
+        if (station == 0) sweep_.seam_in_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_in(line);
+        if (station == last) sweep_.seam_out_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_out(line);
       }
       return;
     }
     if (station < 0 || station > last) return;
-    const auto comes = [&](int line) { balance_.inflow += 0.5 * stage.flux_in(line); };
-    const auto goes = [&](int line) { balance_.outflow += 0.5 * stage.flux_out(line); };
+    const auto comes = [&](int line) { balance_.inflow += stage_weight[at(s)] * stage.flux_in(line); };
+    const auto goes = [&](int line) { balance_.outflow += stage_weight[at(s)] * stage.flux_out(line); };
     if (station == 0)
       for_all(station, comes);
     else
@@ -225,10 +243,10 @@ class ImpactSweep::Bundle {
     }
     if (begin >= end) return;
     for_stretches(station, begin, end, [&](int from, int to, int q) {
-      average(to - from, erosion(0, station) + from, erosion(1, station) + from,
+      average(to - from, erosion(0, station) + from, erosion(1, station) + from, erosion(2, station) + from,
               sweep_.erosion_.at(station) + q);
       average(to - from, deposition(0, station) + from, deposition(1, station) + from,
-              sweep_.deposition_.at(station) + q);
+              deposition(2, station) + from, sweep_.deposition_.at(station) + q);
     });
   }
 
@@ -242,8 +260,8 @@ class ImpactSweep::Bundle {
   Stretch live_{};
   Balance balance_;
   std::array<HopStage, stages> stage_;
-  /// What the stages work with, at the last four stations.
-  std::array<std::array<std::vector<double>, 4>, stages> height_, erosion_, deposition_;
+  /// What the stages work with, at the last eight stations.
+  std::array<std::array<std::vector<double>, 8>, stages> height_, erosion_, deposition_;
 };
 
 /// Puts right at the last station of a periodic bed what the first round left of the difference between what

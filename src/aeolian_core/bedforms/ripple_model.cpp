@@ -16,10 +16,6 @@
 namespace aeolian {
 namespace {
 
-/// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
-/// cell: as long as is stable.
-constexpr double step_limit = 0.5;
-
 void require(bool allowed, const char* name, double value, const char* range) {
   if (!allowed)
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
@@ -54,6 +50,7 @@ RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(param
           parameters.hop_shortening, "zero or more and finite");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
+  require(parameters.step > 0 && parameters.step <= 1, "step", parameters.step, "above zero, at most one");
   require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
 }
 
@@ -102,7 +99,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
 
   VolumeBalance volume;
   const double steps =
-      std::max(1.0, std::ceil(duration * erosion_rate / (step_limit * frame.step() * tan_impact)));
+      std::max(1.0, std::ceil(duration * erosion_rate / (parameters_.step * frame.step() * tan_impact)));
   const double dt = duration / steps;
   const double depth = erosion_rate * dt;
   const double area = cell * cell;

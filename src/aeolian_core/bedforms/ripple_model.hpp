@@ -23,6 +23,9 @@ struct RippleParameters {
   double slope_effect = 0.4;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
   double relief_scale = 0.5;     ///< heights are taken above the surface smoothed over this length [m]
+  /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
+  /// cell. Stable up to 1; docs/ripple_model.md has the error against the step.
+  double step = 1;
 };
 
 /// Ripples on a height map: impacts at a grazing angle fall on exposed slopes only, each sets grains
