@@ -11,7 +11,7 @@
 namespace aeolian {
 namespace {
 
-constexpr int patch_rows = 32;
+constexpr int patch_rows = ActivePatches::rows_each;
 constexpr int strip = 32;  ///< stations that are relaxed by themselves before what crosses their ends
 
 /// Slopes are let alone until they exceed repose by this share, and come to rest as much below it.
@@ -138,9 +138,46 @@ void Avalanches::disturb(int station, int patch, int begin, int end) {
   }
 }
 
-/// Relaxes the disturbed patches of the stations [begin, end) until none is too steep. Downwind, which for
-/// ripples is down the steep side.
-double Avalanches::relax_strip(FrameField& height, int begin, int end) {
+/// As relax(), cell by cell: slides of sand on rock are few.
+double Avalanches::relax_on_ground(FrameField& height, const HardGround& ground, int station, int patch) {
+  const int begin = patch * patch_rows;
+  const int end = std::min(begin + patch_rows, rows_);
+  const int behind = next(station);
+  double sum = 0;
+  const auto exchange = [&](int i, int row, int other, int other_row, double straight) {
+    if (other_row >= rows_) {
+      if (!periodic_) return;
+      other_row -= rows_;
+    }
+    if (row >= rows_) {
+      if (!periodic_) return;
+      row -= rows_;
+    }
+    if (ground.open.at(i)[row] * ground.open.at(other)[other_row] == 0) return;
+    double& h = height.at(i)[row];
+    double& o = height.at(other)[other_row];
+    const double wanted = slide(h - o, straight, 0.5);
+    const double above = wanted > 0 ? h - ground.floor.at(i)[row] : o - ground.floor.at(other)[other_row];
+    const double amount = std::copysign(std::min(std::abs(wanted), std::max(0.0, above)), wanted);
+    h -= amount;
+    o += amount;
+    sum += std::abs(amount);
+  };
+  for (int row = begin; row < end; ++row) {
+    if (behind != station) {
+      exchange(station, row, behind, row, straight_);
+      exchange(station, row, behind, row + 1, straight_ * diagonal);
+      exchange(station, row + 1, behind, row, straight_ * diagonal);
+    }
+    exchange(station, row, station, row + 1, straight_);
+  }
+  return sum;
+}
+
+/// Relaxes the disturbed patches of the stations [begin, end) until none is too steep or nothing moves there.
+/// Downwind, which for ripples is down the steep side.
+template <class Relax>
+double Avalanches::relax_strip(const FrameField& height, int begin, int end, Relax&& relax_patch) {
   double moved = 0;
   for (bool any = true; any;) {
     any = false;
@@ -151,7 +188,9 @@ double Avalanches::relax_strip(FrameField& height, int begin, int end) {
         if (!disturbed) continue;
         disturbed = 0;
         if (!steep(height, station, patch)) continue;
-        moved += relax(height, station, patch);
+        const double now = relax_patch(station, patch);
+        if (!(now > 1e-9 * straight_)) continue;
+        moved += now;
         disturb(station, patch, begin, end);
         any = true;
       }
@@ -159,27 +198,55 @@ double Avalanches::relax_strip(FrameField& height, int begin, int end) {
   return moved;
 }
 
-double Avalanches::run(FrameField& height) {
+template <class Relax>
+double Avalanches::relax_all(FrameField& height, const ActivePatches* active, Relax&& relax_patch) {
   const int strips = (stations_ + strip - 1) / strip;
-  const auto row_of = [&](int station) {
-    return disturbed_.begin() + static_cast<std::ptrdiff_t>(station) * patches_;
+  const auto look_at = [&](int station) {
+    for (int patch = 0; patch < patches_; ++patch)
+      if (!active || active->get(station, patch))
+        disturbed_[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
+                   static_cast<std::size_t>(patch)] = 1;
   };
   std::vector<double> moved(static_cast<std::size_t>(strips));
   tbb::parallel_for(0, strips, [&](int n) {
     const int begin = n * strip;
     const int end = std::min(begin + strip, stations_) - 1;  // the last one's slopes reach the next strip
-    std::fill(row_of(begin), row_of(end), std::uint8_t{1});
-    moved[static_cast<std::size_t>(n)] = relax_strip(height, begin, end);
+    for (int station = begin; station < end; ++station) look_at(station);
+    moved[static_cast<std::size_t>(n)] = relax_strip(height, begin, end, relax_patch);
   });
-  for (int n = 0; n < strips; ++n) {
-    const int last = std::min((n + 1) * strip, stations_) - 1;
-    std::fill(row_of(last), row_of(last + 1), std::uint8_t{1});
-  }
-  double total = relax_strip(height, 0, stations_);
+  for (int n = 0; n < strips; ++n) look_at(std::min((n + 1) * strip, stations_) - 1);
+  double total = relax_strip(height, 0, stations_, relax_patch);
   for (const double m : moved) total += m;
   if (total > 0)
     for (int i = 0; i < stations_; ++i) height.fill_pads(i, periodic_);
   return total * area_;
+}
+
+double Avalanches::run(FrameField& height) {
+  return relax_all(height, nullptr, [&](int station, int patch) { return relax(height, station, patch); });
+}
+
+double Avalanches::run(FrameField& height, const HardGround& ground, ActivePatches& active) {
+  // Slides beyond an active patch make their own patches active. Several strips may flag one patch: later.
+  std::vector<std::uint8_t> slid(disturbed_.size(), 0);
+  const double moved = relax_all(height, &active, [&](int station, int patch) {
+    const double amount = relax_on_ground(height, ground, station, patch);
+    if (amount > 0)
+      slid[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
+           static_cast<std::size_t>(patch)] = 1;
+    return amount;
+  });
+  for (int station = 0; station < stations_; ++station)
+    for (int patch = 0; patch < patches_; ++patch) {
+      if (!slid[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
+                static_cast<std::size_t>(patch)])
+        continue;
+      for (const int i : {station, next(station)}) {
+        active.set(i, patch, true);
+        active.set(i, patch + 1 < patches_ ? patch + 1 : periodic_ ? 0 : patch, true);
+      }
+    }
+  return moved;
 }
 
 }  // namespace aeolian

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "aeolian_core/bedforms/frame_field.hpp"
+#include "aeolian_core/bedforms/hard_ground.hpp"
 
 namespace aeolian {
 
@@ -21,11 +21,19 @@ class Avalanches {
   /// Height with pads filled, before and after. Returns the volume moved [m^3].
   double run(FrameField& height);
 
+  /// The same on hard ground, begun in active patches: no more slides than lies on the floor, nothing where
+  /// it is not open. `active` grows by what the slides reach.
+  double run(FrameField& height, const HardGround& ground, ActivePatches& active);
+
  private:
   int next(int station) const;
   bool steep(const FrameField& height, int station, int patch) const;
   double relax(FrameField& height, int station, int patch);
-  double relax_strip(FrameField& height, int begin, int end);
+  double relax_on_ground(FrameField& height, const HardGround& ground, int station, int patch);
+  template <class Relax>
+  double relax_strip(const FrameField& height, int begin, int end, Relax&& relax);
+  template <class Relax>
+  double relax_all(FrameField& height, const ActivePatches* active, Relax&& relax);
   void disturb(int station, int patch, int begin, int end);
 
   int stations_, rows_, patches_;

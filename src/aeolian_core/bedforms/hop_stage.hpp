@@ -37,8 +37,21 @@ class HopStage {
   void sweep(const HopLaw& law, int begin, int end, const double* height, const double* height_1,
              const double* height_2, double* erosion, double* deposition);
 
-  /// A line begins at station k, just swept, with the flux and exposure of a flat bed at this height.
-  void begin(const HopLaw& law, int line, double height);
+  /// The same on hard ground: of station k - 1 no more than `movable` is eroded, in flat-bed erosions; where
+  /// `open` is zero, at k - 1 or k - 2, sand passes over the bed as it is.
+  void sweep_hard(const HopLaw& law, int begin, int end, const double* height, const double* height_1,
+                  const double* height_2, const double* movable_1, const double* open_1, const double* open_2,
+                  double* erosion, double* deposition);
+
+  /// Sweeps bare ground that no grain reaches: only the envelope of the impacts changes.
+  void pass_over(const HopLaw& law, int begin, int end, const double* height);
+
+  /// A line begins at station k, just swept, with the exposure of a flat bed at this height and a share of
+  /// its flux.
+  void begin(const HopLaw& law, int line, double height, double share);
+
+  /// Largest flux of grains among some lines.
+  double strongest_flux(int begin, int end) const;
 
   /// Flux through the face behind the station whose deposition was given last, and through the one before it.
   double flux_out(int line) const { return out_[static_cast<std::size_t>(line)]; }

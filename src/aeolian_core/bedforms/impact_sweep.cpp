@@ -45,6 +45,24 @@ AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, co
   for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = (1.0 / 6) * (a[i] + b[i] + 4 * c[i]);
 }
 
+/// What can be eroded where each line lies: no more than what lies on either of its rows. `high` is 0 where
+/// lines lie on rows.
+AEOLIAN_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, double per_depth,
+                                  const double* __restrict bed, const double* __restrict floor,
+                                  const double* __restrict open, double* __restrict movable,
+                                  double* __restrict passable) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double low_sand = (bed[i - 1] - floor[i - 1]) * open[i - 1];
+    const double high_sand = (bed[i - 1 + high] - floor[i - 1 + high]) * open[i - 1 + high];
+    const double least = low_sand < high_sand ? low_sand : high_sand;
+    movable[i] = least > 0 ? least * per_depth : 0;
+    passable[i] = open[i - 1] * open[i - 1 + high];
+  }
+}
+
+constexpr int settle = stages * lag + 2;   ///< stations after which nothing of what was is in work
+constexpr double least_flux = 1e-10;       ///< of a flat bed's, that is still followed over bare ground
+
 constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
 int modulo(int i, int n) { return (i % n + n) % n; }
@@ -88,32 +106,37 @@ int ImpactSweep::spin_up(const FrameField& bed, const FrameField& dune) const {
 /// Some lines beside one another, swept from the first station to the last.
 class ImpactSweep::Bundle {
  public:
-  Bundle(ImpactSweep& sweep, const FrameField& bed, const FrameField& dune, double depth, int begin, int end)
-      : sweep_(sweep), frame_(sweep.frame_), law_(sweep.law_), bed_(bed), dune_(dune), depth_(depth),
-        begin_(begin), end_(end), stage_{HopStage(end - begin), HopStage(end - begin), HopStage(end - begin)} {
+  Bundle(ImpactSweep& sweep, const Task& task, int begin, int end, std::vector<Touched>& touched)
+      : sweep_(sweep), frame_(sweep.frame_), law_(sweep.law_), task_(task), touched_(touched), begin_(begin),
+        end_(end), stage_{HopStage(end - begin), HopStage(end - begin), HopStage(end - begin)} {
     const auto lines = static_cast<std::size_t>(end - begin);
-    for (auto& ring : height_)
-      for (auto& line : ring) line.assign(lines, 0.0);
-    for (auto& ring : erosion_)
-      for (auto& line : ring) line.assign(lines, 0.0);
-    for (auto& ring : deposition_)
-      for (auto& line : ring) line.assign(lines, 0.0);
+    for (auto* rings : {&height_, &erosion_, &deposition_})
+      for (auto& ring : *rings)
+        for (auto& line : ring) line.assign(lines, 0.0);
+    for (auto* ring : {&movable_, &passable_})
+      for (auto& line : *ring) line.assign(task.ground ? lines : 0, 0.0);
   }
 
   Balance run(int first) {
     for (int station = first; station < frame_.stations() + stages * lag; ++station) {
       if (!set_live(station)) continue;
       read(station);
+      if (task_.ground && is_quiet(station)) {
+        for (int s = 0; s < stages; ++s)
+          if (station - s * lag >= first)
+            stage_[at(s)].pass_over(law_, live_.begin, live_.end, height(0, station - s * lag));
+        continue;
+      }
       run_stage(0, station, first);
       const int begin = live_.begin;
       const int count = live_.end - live_.begin;
       if (const int k = station - lag; k >= first) {
-        predict(count, depth_, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
+        predict(count, task_.depth, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
                 height(1, k) + begin);
         run_stage(1, k, first);
       }
       if (const int k = station - 2 * lag; k >= first) {
-        predict_half(count, depth_, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
+        predict_half(count, task_.depth, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
                      erosion(1, k) + begin, deposition(1, k) + begin, height(2, k) + begin);
         run_stage(2, k, first);
       }
@@ -125,6 +148,8 @@ class ImpactSweep::Bundle {
 
  private:
   double* height(int stage, int station) { return height_[at(stage)][at(station & 7)].data(); }
+  double* movable(int station) { return movable_[at(station & 15)].data(); }
+  double* passable(int station) { return passable_[at(station & 15)].data(); }
   double* erosion(int stage, int station) { return erosion_[at(stage)][at(station & 7)].data(); }
   double* deposition(int stage, int station) { return deposition_[at(stage)][at(station & 7)].data(); }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -163,20 +188,56 @@ class ImpactSweep::Bundle {
     if (!frame_.periodic() && station >= frame_.stations()) {
       const double* const before = height(0, station - 1);
       const double* const before_that = height(0, station - 2);
-      for (int line = live_.begin; line < live_.end; ++line)
+      for (int line = live_.begin; line < live_.end; ++line) {
         h[line] = 2 * before[line] - before_that[line];
+        if (!task_.ground) continue;
+        movable(station)[line] = movable(station - 1)[line];
+        passable(station)[line] = passable(station - 1)[line];
+      }
       return;
     }
     const double upper = frame_.place(station).upper;
     const int where = modulo(station, frame_.stations());
     for_stretches(station, live_.begin, live_.end, [&](int begin, int end, int q) {
-      gather(end - begin, upper, bed_.at(where) + q, dune_.at(where) + q, h + begin);
+      gather(end - begin, upper, task_.bed.at(where) + q, task_.dune.at(where) + q, h + begin);
+      if (task_.ground)
+        gather_ground(end - begin, upper > 0 ? 1 : 0, 1 / task_.depth, task_.bed.at(where) + q,
+                      task_.ground->floor.at(where) + q, task_.ground->open.at(where) + q,
+                      movable(station) + begin, passable(station) + begin);
+    });
+  }
+
+  /// Whether nothing can move among this bundle's lines at the stations in work or next, and no grain is on
+  /// its way. Lines that begin here bring sand.
+  bool is_quiet(int station) {
+    const int ahead = frame_.periodic() ? modulo(station + 2, frame_.stations())
+                                        : std::clamp(station + 2, 0, frame_.stations() - 1);
+    const int offset = frame_.place(station).offset;
+    bool sandy = station < settle && !frame_.periodic();
+    for_stretches(station, live_.begin, live_.end, [&](int begin, int end, int q) {
+      sandy = sandy || task_.sandy->any(ahead, q - 3, q + end - begin + 3);
+    });
+    if (!frame_.periodic() && frame_.drift() != 0) {
+      // The line that enters at the side.
+      const int q = frame_.drift() > 0 ? 0 : frame_.rows();
+      const int line = q - offset - begin_;
+      sandy = sandy || (line >= live_.begin - 1 && line <= live_.end);
+    }
+    if (sandy) awake_until_ = station + 2 + settle;
+    if (station <= awake_until_) return false;
+    return std::all_of(stage_.begin(), stage_.end(), [&](const HopStage& stage) {
+      return stage.strongest_flux(live_.begin, live_.end) < least_flux * law_.flat_flux;
     });
   }
 
   void run_stage(int s, int station, int first) {
-    stage_[at(s)].sweep(law_, live_.begin, live_.end, height(s, station), height(s, station - 1),
-                        height(s, station - 2), erosion(s, station - lag), deposition(s, station - lag));
+    if (task_.ground)
+      stage_[at(s)].sweep_hard(law_, live_.begin, live_.end, height(s, station), height(s, station - 1),
+                               height(s, station - 2), movable(station - 1), passable(station - 1),
+                               passable(station - 2), erosion(s, station - lag), deposition(s, station - lag));
+    else
+      stage_[at(s)].sweep(law_, live_.begin, live_.end, height(s, station), height(s, station - 1),
+                          height(s, station - 2), erosion(s, station - lag), deposition(s, station - lag));
     if (station == first) {
       for (int line = live_.begin; line < live_.end; ++line) start(s, station, line);
     } else if (!frame_.periodic() && station < frame_.stations()) {
@@ -230,7 +291,10 @@ class ImpactSweep::Bundle {
 
   void start(int s, int station, int line) {
     height(s, station - 1)[line] = height(s, station)[line];
-    stage_[at(s)].begin(law_, line, height(s, station)[line]);
+    // Bare ground at the border brings no sand; what is unknown there does.
+    const bool bare = task_.ground && passable(station)[line] > 0;
+    stage_[at(s)].begin(law_, line, height(s, station)[line],
+                        bare ? std::min(1.0, movable(station)[line]) : 1.0);
   }
 
   void write(int station) {
@@ -247,21 +311,23 @@ class ImpactSweep::Bundle {
               sweep_.erosion_.at(station) + q);
       average(to - from, deposition(0, station) + from, deposition(1, station) + from,
               deposition(2, station) + from, sweep_.deposition_.at(station) + q);
+      if (task_.ground) touched_.push_back({station, q - 1, q + to - from});
     });
   }
 
   ImpactSweep& sweep_;
   const WindFrame& frame_;
   const HopLaw& law_;
-  const FrameField& bed_;
-  const FrameField& dune_;
-  double depth_;
+  const Task& task_;
+  std::vector<Touched>& touched_;
   int begin_, end_;
+  int awake_until_ = 0;
   Stretch live_{};
   Balance balance_;
   std::array<HopStage, stages> stage_;
   /// What the stages work with, at the last eight stations.
   std::array<std::array<std::vector<double>, 8>, stages> height_, erosion_, deposition_;
+  std::array<std::vector<double>, 16> movable_, passable_;
 };
 
 /// Puts right at the last station of a periodic bed what the first round left of the difference between what
@@ -280,16 +346,40 @@ void ImpactSweep::close_period() {
 }
 
 void ImpactSweep::run(const FrameField& bed, const FrameField& dune, double depth) {
-  const int first_line = frame_.first_line();
-  const int bundles = (frame_.end_line() - first_line + bundle_lines - 1) / bundle_lines;
-  const int first = frame_.periodic() ? -spin_up(bed, dune) : 0;
+  run(Task{bed, dune, nullptr, nullptr, depth});
+}
+
+void ImpactSweep::run(const FrameField& bed, const FrameField& dune, const HardGround& ground,
+                      const ActivePatches& sandy, double depth, ActivePatches& active) {
+  for (int station = 0; station < frame_.stations(); ++station)
+    active.for_runs(station, [&](int begin, int end) {
+      std::fill(erosion_.at(station) + begin, erosion_.at(station) + end + 1, 0.0);
+      std::fill(deposition_.at(station) + begin, deposition_.at(station) + end + 1, 0.0);
+    });
+  active.fill(false);
+  run(Task{bed, dune, &ground, &sandy, depth});
+  for (const auto& bundle : touched_)
+    for (const Touched& touched : bundle) {
+      active.activate_rows(touched.station, touched.begin, touched.end);
+      if (frame_.periodic() && touched.begin < 0)
+        active.activate_rows(touched.station, frame_.rows() - 1, frame_.rows());
+    }
+}
+
+void ImpactSweep::run(const Task& task) {
+  const int lines = frame_.end_line() - frame_.first_line();
+  const int bundles = (lines + bundle_lines - 1) / bundle_lines;
+  const int each = (lines + bundles - 1) / bundles;
+  const int first = frame_.periodic() ? -spin_up(task.bed, task.dune) : 0;
   std::fill(seam_in_.begin(), seam_in_.end(), 0.0);
   std::fill(seam_out_.begin(), seam_out_.end(), 0.0);
   std::vector<Balance> balances(static_cast<std::size_t>(bundles));
+  touched_.assign(static_cast<std::size_t>(bundles), {});
   tbb::parallel_for(0, bundles, [&](int i) {
-    const int begin = first_line + i * bundle_lines;
-    const int end = std::min(begin + bundle_lines, frame_.end_line());
-    balances[static_cast<std::size_t>(i)] = Bundle(*this, bed, dune, depth, begin, end).run(first);
+    const int begin = frame_.first_line() + i * each;
+    const int end = std::min(begin + each, frame_.end_line());
+    const auto at = static_cast<std::size_t>(i);
+    if (begin < end) balances[at] = Bundle(*this, task, begin, end, touched_[at]).run(first);
   });
   inflow_ = outflow_ = 0;
   for (const Balance& balance : balances) {

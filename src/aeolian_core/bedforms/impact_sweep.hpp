@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "aeolian_core/bedforms/hard_ground.hpp"
 #include "aeolian_core/bedforms/hop_stage.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
 
@@ -27,6 +28,12 @@ class ImpactSweep {
   /// see the height above `dune`.
   void run(const FrameField& bed, const FrameField& dune, double depth);
 
+  /// The same on hard ground, where no more is eroded than lies on it at the beginning of the step. Lines do
+  /// no work where `sandy` says that nothing can move and no grain arrives. `active`, which is of the last
+  /// run or full, becomes the patches that deposition may reach; elsewhere nothing changes.
+  void run(const FrameField& bed, const FrameField& dune, const HardGround& ground, const ActivePatches& sandy,
+           double depth, ActivePatches& active);
+
   /// Means over the step for line q at a station: between rows q - 1 and q, q = 0 ... rows. Deposition may
   /// fall below zero where the bed is so steep that hops change much over a cell.
   const FrameField& erosion() const { return erosion_; }
@@ -44,16 +51,29 @@ class ImpactSweep {
     double inflow = 0;
     double outflow = 0;
   };
+  /// What a run works on.
+  struct Task {
+    const FrameField& bed;
+    const FrameField& dune;
+    const HardGround* ground;  ///< null when there is none
+    const ActivePatches* sandy;
+    double depth;
+  };
+  struct Touched {
+    int station, begin, end;  ///< rows
+  };
   class Bundle;
 
   Stretch on_grid(int station) const;
   int spin_up(const FrameField& bed, const FrameField& dune) const;
+  void run(const Task& task);
   void close_period();
 
   const WindFrame& frame_;
   HopLaw law_;
   FrameField erosion_, deposition_;
   std::vector<double> seam_in_, seam_out_;
+  std::vector<std::vector<Touched>> touched_;  ///< by each bundle
   double inflow_ = 0;
   double outflow_ = 0;
 };

@@ -81,6 +81,21 @@ AEOLIAN_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* we
   }
 }
 
+/// The sum of the taps where some cells are closed: each pair of cells exchanges by itself.
+AEOLIAN_KERNEL void exchange_across(int taps, std::ptrdiff_t count, const double* weight,
+                                    const double* __restrict v, const double* __restrict open,
+                                    double* __restrict sum) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) sum[i] = v[i];
+  for (int m = 1; m <= taps; ++m)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+      sum[i] += weight[m] * open[i] * (open[i + m] * (v[i + m] - v[i]) + open[i - m] * (v[i - m] - v[i]));
+}
+
+AEOLIAN_KERNEL void close_faces(std::ptrdiff_t count, const double* __restrict open,
+                                const double* __restrict next_open, double* __restrict flux) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) flux[i] *= open[i] * next_open[i];
+}
+
 /// Moves the taps m rows away by m times the drift upwind: the flux between two stations that this is, and no
 /// more of it than half of what is there.
 AEOLIAN_KERNEL void flux_between(std::ptrdiff_t count, double drift, const double* __restrict sum,
@@ -131,48 +146,57 @@ LateralSpread::LateralSpread(const WindFrame& frame, double sigma) : frame_(fram
   weight_.assign(kernel.begin() + foldings, kernel.end());
 }
 
-void LateralSpread::pass(const FrameField& from, int count, bool wall_before, bool wall_behind,
-                         FrameField& to) const {
-  const int rows = frame_.rows();
+void LateralSpread::pass(const FrameField& from, int begin, int count, int row_begin, int row_end,
+                         const FrameField* open, FrameField& to) const {
+  const int rows = row_end - row_begin;
   const int taps = static_cast<int>(weight_.size()) - 1;
+  const int n = frame_.stations();
+  const auto mask_of = [&](int i) { return open->at(((begin + i) % n + n) % n) + row_begin; };
   if (frame_.drift() == 0) {
-    for (int i = 0; i < count; ++i) mean_across(taps, rows, weight_.data(), from.at(i), to.at(i));
+    for (int i = 0; i < count; ++i) {
+      const double* const values = from.at(i) + row_begin;
+      mean_across(taps, rows, weight_.data(), values, to.at(i) + row_begin);
+      if (open) exchange_across(taps, rows, weight_.data(), values, mask_of(i), to.at(i) + row_begin);
+    }
     return;
   }
-  const auto n = static_cast<std::size_t>(rows);
+  const bool wall_before = !frame_.periodic() && begin == 0;
+  const bool wall_behind = !frame_.periodic() && begin + count == n;
   struct Moments {
     std::vector<double> sum, first, second, flux;  ///< `flux` to the next station
   };
-  const Moments empty{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
-                      std::vector<double>(n, 0.0)};
-  std::array<Moments, 3> ring{empty, empty, empty};
+  const std::vector<double> zeros(static_cast<std::size_t>(rows), 0.0);
+  std::array<Moments, 3> ring;
+  ring.fill({zeros, zeros, zeros, zeros});
   const auto at = [&](int i) -> Moments& { return ring[static_cast<std::size_t>(i + 3) % 3]; };
   const auto finish = [&](int i) {
     if ((i == 0 && !wall_before) || (i == count - 1 && !wall_behind)) return;
-    settle(rows, at(i).sum.data(), at(i - 1).flux.data(), at(i).flux.data(), to.at(i));
+    settle(rows, at(i).sum.data(), at(i - 1).flux.data(), at(i).flux.data(), to.at(i) + row_begin);
   };
   for (int i = 0; i < count; ++i) {
     Moments& here = at(i);
-    moments(taps, rows, weight_.data(), from.at(i), here.sum.data(), here.first.data(), here.second.data());
+    const double* const values = from.at(i) + row_begin;
+    moments(taps, rows, weight_.data(), values, here.sum.data(), here.first.data(), here.second.data());
+    if (open) exchange_across(taps, rows, weight_.data(), values, mask_of(i), here.sum.data());
     if (i == 0) continue;
     Moments& before = at(i - 1);
     flux_between(rows, frame_.drift(), before.sum.data(), here.sum.data(), before.first.data(),
                  here.first.data(), before.second.data(), here.second.data(), before.flux.data());
+    if (open) close_faces(rows, mask_of(i - 1), mask_of(i), before.flux.data());
     finish(i - 1);
   }
-  std::fill(at(count - 1).flux.begin(), at(count - 1).flux.end(), 0.0);
+  at(count - 1).flux = zeros;
   finish(count - 1);
 }
 
-void LateralSpread::run(FrameField& values, int begin, int end) const {
+void LateralSpread::run(FrameField& values, int begin, int end, int row_begin, int row_end,
+                        const FrameField* open) const {
   if (passes_ == 0) return;
   FrameField result(end - begin, frame_.rows());
-  const bool wall_before = !frame_.periodic() && begin == 0;
-  const bool wall_behind = !frame_.periodic() && end == frame_.stations();
   for (int n = 0; n < passes_; ++n) {
     if (n > 0)
       for (int i = 0; i < end - begin; ++i) values.fill_mirrored_pads(i, frame_.periodic());
-    pass(values, end - begin, wall_before, wall_behind, result);
+    pass(values, begin, end - begin, row_begin, row_end, open, result);
     values.swap(result);
   }
 }

@@ -19,10 +19,16 @@ class LateralSpread {
 
   /// Values of the stations [begin, end), which are field stations 0 ... with pads filled, are replaced by
   /// their spread. Where the stretch does not end at a wall, `reach()` stations there are left in between.
-  void run(FrameField& values, int begin, int end) const;
+  /// Only rows [row_begin, row_end) are worked on. Nothing is spread to or from where `open`, the field of
+  /// the whole frame or null, is zero.
+  void run(FrameField& values, int begin, int end, int row_begin, int row_end, const FrameField* open) const;
+
+  /// Rows that a value may reach.
+  int reach_across() const { return passes_ * static_cast<int>(weight_.size()); }
 
  private:
-  void pass(const FrameField& from, int count, bool wall_before, bool wall_behind, FrameField& to) const;
+  void pass(const FrameField& from, int begin, int count, int row_begin, int row_end, const FrameField* open,
+            FrameField& to) const;
 
   const WindFrame& frame_;
   int passes_ = 0;

@@ -35,11 +35,41 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, con
 
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
-LaidDown lay_down_stations(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread,
-                           double depth, int begin, int end, FrameField& bed, FrameField& activity) {
+struct Rows {
+  int begin, end;
+};
+
+/// The rows from the first to the last active patch among some stations.
+Rows hull(const ActivePatches& active, int rows, int begin, int end) {
+  Rows result{rows, 0};
+  for (int i = begin; i < end; ++i)
+    active.for_runs(i, [&](int from, int to) {
+      result.begin = std::min(result.begin, from);
+      result.end = std::max(result.end, to);
+    });
+  return result;
+}
+
+struct LayDown {
+  const WindFrame& frame;
+  const ImpactSweep& sweep;
+  const LateralSpread& spread;
+  double depth;
+  const FrameField* open;
+  const ActivePatches& active;
+  FrameField& bed;
+  FrameField& activity;
+
+  LaidDown run(int begin, int end) const;
+};
+
+LaidDown LayDown::run(int begin, int end) const {
+  LaidDown result;
   const int n = frame.stations();
   const int rows = frame.rows();
   const bool periodic = frame.periodic();
+  const Rows live = hull(active, rows, begin, end);
+  if (live.begin >= live.end) return result;
   const int from = periodic ? begin - spread.reach() : std::max(0, begin - spread.reach());
   const int to = periodic ? end + spread.reach() : std::min(n, end + spread.reach());
   FrameField deposition(to - from, rows);
@@ -48,15 +78,15 @@ LaidDown lay_down_stations(const WindFrame& frame, const ImpactSweep& sweep, con
     scatter(rows, frame.place(station).upper, sweep.deposition().at(station), deposition.at(i - from));
     deposition.fill_mirrored_pads(i - from, periodic);
   }
-  spread.run(deposition, from, to);
+  spread.run(deposition, from, to, live.begin, live.end, open);
 
-  LaidDown result;
-  std::vector<double> eroded(static_cast<std::size_t>(rows), 0.0);
-  std::vector<double> strongest(static_cast<std::size_t>(rows), 0.0);
+  const int count = live.end - live.begin;
+  std::vector<double> eroded(static_cast<std::size_t>(count), 0.0);
+  std::vector<double> strongest(static_cast<std::size_t>(count), 0.0);
   for (int i = begin; i < end; ++i) {
     const double upper = frame.place(i).upper;
-    update(rows, depth, upper, sweep.erosion().at(i), deposition.at(i - from), bed.at(i), activity.at(i),
-           eroded.data(), strongest.data());
+    update(count, depth, upper, sweep.erosion().at(i) + live.begin, deposition.at(i - from) + live.begin,
+           bed.at(i) + live.begin, activity.at(i) + live.begin, eroded.data(), strongest.data());
     bed.fill_pads(i, periodic);
     activity.fill_pads(i, periodic);
     if (periodic) continue;
@@ -69,17 +99,33 @@ LaidDown lay_down_stations(const WindFrame& frame, const ImpactSweep& sweep, con
   return result;
 }
 
+/// Adds the patches that are within reach of active ones.
+void widen(const WindFrame& frame, const LateralSpread& spread, ActivePatches& active) {
+  const ActivePatches before = active;
+  const int n = frame.stations();
+  for (int i = 0; i < n; ++i)
+    before.for_runs(i, [&](int begin, int end) {
+      for (int k = i - spread.reach() - 1; k <= i + spread.reach() + 1; ++k) {
+        if (!frame.periodic() && (k < 0 || k >= n)) continue;
+        active.activate_rows(wrapped(k, n), begin - spread.reach_across() - 1, end + spread.reach_across() + 1);
+        if (!frame.periodic()) continue;
+        if (begin == 0) active.activate_rows(wrapped(k, n), frame.rows() - 1, frame.rows());
+        if (end == frame.rows()) active.activate_rows(wrapped(k, n), 0, 1);
+      }
+    });
+}
+
 }  // namespace
 
 LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
-                  FrameField& bed, FrameField& activity) {
+                  const FrameField* open, ActivePatches& active, FrameField& bed, FrameField& activity) {
+  if (open) widen(frame, spread, active);
+  const LayDown work{frame, sweep, spread, depth, open, active, bed, activity};
   const int blocks = (frame.stations() + stations_at_once - 1) / stations_at_once;
   std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {
     const int begin = block * stations_at_once;
-    parts[static_cast<std::size_t>(block)] =
-        lay_down_stations(frame, sweep, spread, depth, begin, std::min(begin + stations_at_once, frame.stations()),
-                          bed, activity);
+    parts[static_cast<std::size_t>(block)] = work.run(begin, std::min(begin + stations_at_once, frame.stations()));
   });
   LaidDown result{0, sweep.inflow(), sweep.outflow(), 0};
   for (const LaidDown& part : parts) {

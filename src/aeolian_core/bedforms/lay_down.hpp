@@ -15,8 +15,9 @@ struct LaidDown {
 
 /// Applies a sweep over a step in which a flat bed loses `depth` [m]: gives what lines lost and gained to the
 /// rows beside them, deposition spread across the wind. `activity` becomes the deposition, or zero where that
-/// is negative. Both have their pads filled.
+/// is negative. Both have their pads filled. `open` is that of hard ground or null. Only active patches are
+/// worked on; `active` grows by those that the spread reaches.
 LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
-                  FrameField& bed, FrameField& activity);
+                  const FrameField* open, ActivePatches& active, FrameField& bed, FrameField& activity);
 
 }  // namespace aeolian

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "aeolian_core/bedforms/avalanche.hpp"
+#include "aeolian_core/bedforms/hard_ground.hpp"
 #include "aeolian_core/bedforms/impact_sweep.hpp"
 #include "aeolian_core/bedforms/lateral_spread.hpp"
 #include "aeolian_core/bedforms/lay_down.hpp"
@@ -19,6 +20,29 @@ namespace {
 void require(bool allowed, const char* name, double value, const char* range) {
   if (!allowed)
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
+}
+
+/// Says anew of the active patches whether sand lies there that can move.
+void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatches& active,
+               ActivePatches& sandy) {
+  constexpr double least = 1e-12;  // [m], far less than a grain
+  active.for_all([&](int station, int patch, int begin, int end) {
+    bool any = false;
+    for (int row = begin; row < end; ++row)
+      any = any || (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] > least;
+    sandy.set(station, patch, any);
+  });
+}
+
+void clear(const ActivePatches& active, const WindFrame& frame, FrameField& field) {
+  for (int station = 0; station < frame.stations(); ++station) {
+    bool any = false;
+    active.for_runs(station, [&](int begin, int end) {
+      std::fill(field.at(station) + begin, field.at(station) + end, 0.0);
+      any = true;
+    });
+    if (any) field.fill_pads(station, frame.periodic());
+  }
 }
 
 TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
@@ -63,7 +87,20 @@ BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double du
     return {TileMask(map.geometry()), {}};
   const HeightMap::Layer whole = filled(map.geometry(), elevation);
   std::vector<double> height(whole.begin(), whole.end());
-  BedChange change = advance(map.geometry(), height, forcing, duration);
+  if (count_known(elevation) == elevation.size() && !map.has(layer::ground)) {
+    const BedChange change = advance(map.geometry(), height, forcing, duration);
+    store(height, elevation);
+    return change;
+  }
+  std::vector<double> floor(height.size(), HardGround::bottomless);
+  std::vector<double> open(height.size());
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    open[i] = std::isfinite(elevation[i]) ? 1 : 0;
+    if (!map.has(layer::ground)) continue;
+    const double ground = map.layer(layer::ground)[i];
+    if (std::isfinite(ground)) floor[i] = std::min(ground, height[i]);
+  }
+  const BedChange change = advance(map.geometry(), height, &floor, &open, forcing, duration);
   store(height, elevation);
   return change;
 }
@@ -76,6 +113,12 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
                 std::to_string(geometry.size()) + " cells");
   if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
     throw Error("ripple model: a height is not finite");
+  return advance(geometry, height, nullptr, nullptr, forcing, duration);
+}
+
+BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
+                               const std::vector<double>* floor, const std::vector<double>* open,
+                               const Forcing& forcing, double duration) const {
   const double erosion_rate = forcing.erosion_rate();
   const double hop = forcing.reptation_length;
   if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
@@ -87,15 +130,22 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
   ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
+  SlopeFlux slopes(frame, cell, slope_scale);
   Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
   const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
 
   const std::vector<double> start = height;
   FrameField dune, bed;
   FrameField activity(frame.stations(), frame.rows());
-  FrameField scratch(frame.stations(), frame.rows());
   frame.enter(dune_surface(geometry, height, parameters_.relief_scale, periodic), dune);
   frame.enter(height, bed);
+  HardGround ground;
+  if (floor) {
+    frame.enter(*floor, ground.floor);
+    frame.enter(*open, ground.open);
+  }
+  ActivePatches active(frame.stations(), frame.rows());
+  ActivePatches sandy = active;
 
   VolumeBalance volume;
   const double steps =
@@ -104,13 +154,25 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
   for (double step = 0; step < steps; ++step) {
-    impacts.run(bed, dune, depth);
-    const LaidDown laid = lay_down(frame, impacts, spread, depth, bed, activity);
+    if (ground.any()) {
+      find_sand(bed, ground, active, sandy);
+      clear(active, frame, activity);
+      impacts.run(bed, dune, ground, sandy, depth, active);
+    } else {
+      impacts.run(bed, dune, depth);
+    }
+    const LaidDown laid =
+        lay_down(frame, impacts, spread, depth, ground.any() ? &ground.open : nullptr, active, bed, activity);
     volume.moved += laid.eroded * depth * area;
     volume.inflow += laid.inflow * depth * area;
     volume.outflow += laid.outflow * depth * area;
-    apply_slope_flux(frame, cell, slope_scale, activity, laid.strongest, dt, bed, scratch);
-    volume.moved += avalanches.run(bed);
+    if (ground.any()) {
+      slopes.run(activity, laid.strongest, dt, ground, active, bed);
+      volume.moved += avalanches.run(bed, ground, active);
+    } else {
+      slopes.run(activity, laid.strongest, dt, bed);
+      volume.moved += avalanches.run(bed);
+    }
   }
   frame.leave(bed, height);
   for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;

@@ -30,7 +30,8 @@ struct RippleParameters {
 
 /// Ripples on a height map: impacts at a grazing angle fall on exposed slopes only, each sets grains
 /// reptating with an exponential distribution of lengths, slopes feed back on reptation, and what is steeper
-/// than repose avalanches. dh/dt = deposition - erosion - div q (specification sec. 5.4, after Werner 1987,
+/// than repose avalanches. The layer `ground` of a map, where it is known, is never eroded; unknown cells are
+/// passed over and keep no sand. dh/dt = deposition - erosion - div q (specification sec. 5.4, after Werner 1987,
 /// eqs. 5.3-5.6).
 ///
 /// Linear theory on a flat bed, with C = cot(alpha) - nu: growth rate K0 (C k^2 a / (1 + k^2 a^2) - mu a
@@ -48,6 +49,10 @@ class RippleModel : public BedModel {
                     double duration);
 
  private:
+  BedChange advance(const GridGeometry& geometry, std::vector<double>& height,
+                    const std::vector<double>* floor, const std::vector<double>* open, const Forcing& forcing,
+                    double duration) const;
+
   RippleParameters parameters_;
 };
 
