@@ -183,8 +183,9 @@ double Avalanches::relax_strip(const FrameField& height, int begin, int end, Rel
     any = false;
     for (int station = begin; station < end; ++station)
       for (int patch = 0; patch < patches_; ++patch) {
-        std::uint8_t& disturbed = disturbed_[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
-                                             static_cast<std::size_t>(patch)];
+        std::uint8_t& disturbed =
+            disturbed_[static_cast<std::size_t>(station) * static_cast<std::size_t>(patches_) +
+                       static_cast<std::size_t>(patch)];
         if (!disturbed) continue;
         disturbed = 0;
         if (!steep(height, station, patch)) continue;

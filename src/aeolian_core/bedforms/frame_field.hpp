@@ -1,11 +1,11 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <new>
 #include <utility>
 #include <vector>
+
+#include <sys/mman.h>
 
 namespace aeolian {
 
@@ -19,15 +19,15 @@ struct LargePages {
   T* allocate(std::size_t count) {
     constexpr std::size_t page = std::size_t{1} << 21;
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < page / 2) return static_cast<T*>(::operator new(bytes, std::align_val_t{64}));
+    if (bytes < page / 2) return static_cast<T*>(::operator new (bytes, std::align_val_t{64}));
     const std::size_t whole = (bytes + page - 1) / page * page;
-    void* const memory = ::operator new(whole, std::align_val_t{page});
+    void* const memory = ::operator new (whole, std::align_val_t{page});
     madvise(memory, whole, MADV_HUGEPAGE);
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {
     constexpr std::size_t page = std::size_t{1} << 21;
-    ::operator delete(memory, std::align_val_t{count * sizeof(T) < page / 2 ? 64 : page});
+    ::operator delete (memory, std::align_val_t{count * sizeof(T) < page / 2 ? 64 : page});
   }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }
   friend bool operator!=(const LargePages&, const LargePages&) { return false; }

@@ -13,9 +13,8 @@ AEOLIAN_KERNEL void sweep_lines(const HopLaw& given, std::ptrdiff_t count, const
                                 double* __restrict envelope, double* __restrict exposure,
                                 double* __restrict last_erosion, double* __restrict grains,
                                 double* __restrict heights, const double* __restrict flux,
-                                double* __restrict flux_before, double* __restrict in,
-                                double* __restrict out, double* __restrict erosion,
-                                double* __restrict deposition) {
+                                double* __restrict flux_before, double* __restrict in, double* __restrict out,
+                                double* __restrict erosion, double* __restrict deposition) {
   const HopLaw law = given;
   const double per_drop = 1 / law.drop;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -32,7 +31,8 @@ AEOLIAN_KERNEL void sweep_lines(const HopLaw& given, std::ptrdiff_t count, const
     const double g = law.carried * heights[i] + launched * ((h[i] + h2[i] + 4 * h1[i]) * (1.0 / 6));
     grains[i] = f;
     heights[i] = g;
-    const double through = f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
+    const double through =
+        f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
     // Station k - 2: what comes in, goes out and stays.
     const double leaves =
         law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
@@ -72,8 +72,10 @@ AEOLIAN_KERNEL void sweep_hard_lines(const HopLaw& given, std::ptrdiff_t count, 
     const double g = carried * heights[i] + launched * ((h[i] + h2[i] + 4 * h1[i]) * (1.0 / 6));
     grains[i] = f;
     heights[i] = g;
-    const double through = f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
-    const double raw = law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
+    const double through =
+        f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
+    const double raw =
+        law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
     flux_before[i] = through;
     const double enters = out[i];
     const double lost = last_erosion[i];
@@ -118,8 +120,8 @@ HopLaw::HopLaw(double step, double tan_impact_angle, double hop, double shorteni
 }
 
 HopStage::HopStage(int lines) {
-  for (std::vector<double>* memory : {&envelope_, &exposure_, &erosion_, &grains_, &heights_, &flux_,
-                                      &flux_before_, &in_, &out_})
+  for (std::vector<double>* memory :
+       {&envelope_, &exposure_, &erosion_, &grains_, &heights_, &flux_, &flux_before_, &in_, &out_})
     memory->assign(static_cast<std::size_t>(lines), 0.0);
 }
 

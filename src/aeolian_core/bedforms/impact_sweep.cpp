@@ -12,7 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr int bundle_lines = 128;  ///< lines that are swept together: what they remember fits a first cache
-constexpr int lag = 2;            ///< stations by which a stage's result is behind what it reads
+constexpr int lag = 2;             ///< stations by which a stage's result is behind what it reads
 constexpr int stages = 3;
 
 AEOLIAN_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __restrict bed,
@@ -60,8 +60,8 @@ AEOLIAN_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, dou
   }
 }
 
-constexpr int settle = stages * lag + 2;   ///< stations after which nothing of what was is in work
-constexpr double least_flux = 1e-10;       ///< of a flat bed's, that is still followed over bare ground
+constexpr int settle = stages * lag + 2;  ///< stations after which nothing of what was is in work
+constexpr double least_flux = 1e-10;      ///< of a flat bed's, that is still followed over bare ground
 
 constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
@@ -107,8 +107,14 @@ int ImpactSweep::spin_up(const FrameField& bed, const FrameField& dune) const {
 class ImpactSweep::Bundle {
  public:
   Bundle(ImpactSweep& sweep, const Task& task, int begin, int end, std::vector<Touched>& touched)
-      : sweep_(sweep), frame_(sweep.frame_), law_(sweep.law_), task_(task), touched_(touched), begin_(begin),
-        end_(end), stage_{HopStage(end - begin), HopStage(end - begin), HopStage(end - begin)} {
+      : sweep_(sweep),
+        frame_(sweep.frame_),
+        law_(sweep.law_),
+        task_(task),
+        touched_(touched),
+        begin_(begin),
+        end_(end),
+        stage_{HopStage(end - begin), HopStage(end - begin), HopStage(end - begin)} {
     const auto lines = static_cast<std::size_t>(end - begin);
     for (auto* rings : {&height_, &erosion_, &deposition_})
       for (auto& ring : *rings)
@@ -136,8 +142,9 @@ class ImpactSweep::Bundle {
         run_stage(1, k, first);
       }
       if (const int k = station - 2 * lag; k >= first) {
-        predict_half(count, task_.depth, height(0, k) + begin, erosion(0, k) + begin, deposition(0, k) + begin,
-                     erosion(1, k) + begin, deposition(1, k) + begin, height(2, k) + begin);
+        predict_half(count, task_.depth, height(0, k) + begin, erosion(0, k) + begin,
+                     deposition(0, k) + begin, erosion(1, k) + begin, deposition(1, k) + begin,
+                     height(2, k) + begin);
         run_stage(2, k, first);
       }
       const int done = station - stages * lag;
@@ -234,7 +241,8 @@ class ImpactSweep::Bundle {
     if (task_.ground)
       stage_[at(s)].sweep_hard(law_, live_.begin, live_.end, height(s, station), height(s, station - 1),
                                height(s, station - 2), movable(station - 1), passable(station - 1),
-                               passable(station - 2), erosion(s, station - lag), deposition(s, station - lag));
+                               passable(station - 2), erosion(s, station - lag),
+                               deposition(s, station - lag));
     else
       stage_[at(s)].sweep(law_, live_.begin, live_.end, height(s, station), height(s, station - 1),
                           height(s, station - 2), erosion(s, station - lag), deposition(s, station - lag));
@@ -271,8 +279,10 @@ class ImpactSweep::Bundle {
       if (station != 0 && station != last) return;
       for (int line = 0; line < end_ - begin_; ++line) {
         const int q = begin_ + line + frame_.place(station == 0 ? 0 : last + 1).offset;
-        if (station == 0) sweep_.seam_in_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_in(line);
-        if (station == last) sweep_.seam_out_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_out(line);
+        if (station == 0)
+          sweep_.seam_in_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_in(line);
+        if (station == last)
+          sweep_.seam_out_[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_out(line);
       }
       return;
     }

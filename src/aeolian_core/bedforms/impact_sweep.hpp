@@ -31,8 +31,8 @@ class ImpactSweep {
   /// The same on hard ground, where no more is eroded than lies on it at the beginning of the step. Lines do
   /// no work where `sandy` says that nothing can move and no grain arrives. `active`, which is of the last
   /// run or full, becomes the patches that deposition may reach; elsewhere nothing changes.
-  void run(const FrameField& bed, const FrameField& dune, const HardGround& ground, const ActivePatches& sandy,
-           double depth, ActivePatches& active);
+  void run(const FrameField& bed, const FrameField& dune, const HardGround& ground,
+           const ActivePatches& sandy, double depth, ActivePatches& active);
 
   /// Means over the step for line q at a station: between rows q - 1 and q, q = 0 ... rows. Deposition may
   /// fall below zero where the bed is so steep that hops change much over a cell.

@@ -56,28 +56,44 @@ inline __attribute__((always_inline)) void sum_taps_straight(std::ptrdiff_t coun
 AEOLIAN_KERNEL void moments(int taps, std::ptrdiff_t count, const double* weight, const double* __restrict v,
                             double* __restrict sum, double* __restrict first, double* __restrict second) {
   switch (taps) {
-    case 1: return sum_taps<1>(count, weight, v, sum, first, second);
-    case 2: return sum_taps<2>(count, weight, v, sum, first, second);
-    case 3: return sum_taps<3>(count, weight, v, sum, first, second);
-    case 4: return sum_taps<4>(count, weight, v, sum, first, second);
-    case 5: return sum_taps<5>(count, weight, v, sum, first, second);
-    case 6: return sum_taps<6>(count, weight, v, sum, first, second);
-    case 7: return sum_taps<7>(count, weight, v, sum, first, second);
-    default: return sum_taps<8>(count, weight, v, sum, first, second);
+    case 1:
+      return sum_taps<1>(count, weight, v, sum, first, second);
+    case 2:
+      return sum_taps<2>(count, weight, v, sum, first, second);
+    case 3:
+      return sum_taps<3>(count, weight, v, sum, first, second);
+    case 4:
+      return sum_taps<4>(count, weight, v, sum, first, second);
+    case 5:
+      return sum_taps<5>(count, weight, v, sum, first, second);
+    case 6:
+      return sum_taps<6>(count, weight, v, sum, first, second);
+    case 7:
+      return sum_taps<7>(count, weight, v, sum, first, second);
+    default:
+      return sum_taps<8>(count, weight, v, sum, first, second);
   }
 }
 
 AEOLIAN_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* weight,
                                 const double* __restrict v, double* __restrict sum) {
   switch (taps) {
-    case 1: return sum_taps_straight<1>(count, weight, v, sum);
-    case 2: return sum_taps_straight<2>(count, weight, v, sum);
-    case 3: return sum_taps_straight<3>(count, weight, v, sum);
-    case 4: return sum_taps_straight<4>(count, weight, v, sum);
-    case 5: return sum_taps_straight<5>(count, weight, v, sum);
-    case 6: return sum_taps_straight<6>(count, weight, v, sum);
-    case 7: return sum_taps_straight<7>(count, weight, v, sum);
-    default: return sum_taps_straight<8>(count, weight, v, sum);
+    case 1:
+      return sum_taps_straight<1>(count, weight, v, sum);
+    case 2:
+      return sum_taps_straight<2>(count, weight, v, sum);
+    case 3:
+      return sum_taps_straight<3>(count, weight, v, sum);
+    case 4:
+      return sum_taps_straight<4>(count, weight, v, sum);
+    case 5:
+      return sum_taps_straight<5>(count, weight, v, sum);
+    case 6:
+      return sum_taps_straight<6>(count, weight, v, sum);
+    case 7:
+      return sum_taps_straight<7>(count, weight, v, sum);
+    default:
+      return sum_taps_straight<8>(count, weight, v, sum);
   }
 }
 
@@ -128,7 +144,10 @@ LateralSpread::LateralSpread(const WindFrame& frame, double sigma) : frame_(fram
   const double rows = std::min(sigma * sigma * cosine_squared, most * most);
   const double stations = rows * frame.drift() * frame.drift();
   constexpr double most_in_folding = 0.6;
-  passes_ = static_cast<int>(std::ceil(std::max(rows / (most_in_folding * most_taps), stations)));
+  // Beyond this variance along the stations the interpolation between them would amplify the shortest waves.
+  constexpr double most_along = 0.4;
+  passes_ =
+      static_cast<int>(std::ceil(std::max(rows / (most_in_folding * most_taps), stations / most_along)));
   // The kernel of a pass is (b, 1 - 2b, b), of variance 2b, folded with itself.
   const double variance = rows / passes_;
   const int foldings = static_cast<int>(std::ceil(variance / most_in_folding));

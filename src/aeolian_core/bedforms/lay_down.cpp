@@ -107,7 +107,8 @@ void widen(const WindFrame& frame, const LateralSpread& spread, ActivePatches& a
     before.for_runs(i, [&](int begin, int end) {
       for (int k = i - spread.reach() - 1; k <= i + spread.reach() + 1; ++k) {
         if (!frame.periodic() && (k < 0 || k >= n)) continue;
-        active.activate_rows(wrapped(k, n), begin - spread.reach_across() - 1, end + spread.reach_across() + 1);
+        active.activate_rows(wrapped(k, n), begin - spread.reach_across() - 1,
+                             end + spread.reach_across() + 1);
         if (!frame.periodic()) continue;
         if (begin == 0) active.activate_rows(wrapped(k, n), frame.rows() - 1, frame.rows());
         if (end == frame.rows()) active.activate_rows(wrapped(k, n), 0, 1);
@@ -125,7 +126,8 @@ LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const Latera
   std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {
     const int begin = block * stations_at_once;
-    parts[static_cast<std::size_t>(block)] = work.run(begin, std::min(begin + stations_at_once, frame.stations()));
+    parts[static_cast<std::size_t>(block)] =
+        work.run(begin, std::min(begin + stations_at_once, frame.stations()));
   });
   LaidDown result{0, sweep.inflow(), sweep.outflow(), 0};
   for (const LaidDown& part : parts) {

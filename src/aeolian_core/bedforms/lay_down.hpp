@@ -7,8 +7,8 @@ namespace aeolian {
 
 /// What a sweep did to the bed, in flat-bed cells.
 struct LaidDown {
-  double eroded = 0;   ///< within the grid
-  double inflow = 0;   ///< across open borders
+  double eroded = 0;  ///< within the grid
+  double inflow = 0;  ///< across open borders
   double outflow = 0;
   double strongest = 0;  ///< the largest activity
 };

@@ -29,7 +29,8 @@ void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatc
   active.for_all([&](int station, int patch, int begin, int end) {
     bool any = false;
     for (int row = begin; row < end; ++row)
-      any = any || (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] > least;
+      any = any ||
+            (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] > least;
     sandy.set(station, patch, any);
   });
 }

@@ -31,8 +31,8 @@ struct RippleParameters {
 /// Ripples on a height map: impacts at a grazing angle fall on exposed slopes only, each sets grains
 /// reptating with an exponential distribution of lengths, slopes feed back on reptation, and what is steeper
 /// than repose avalanches. The layer `ground` of a map, where it is known, is never eroded; unknown cells are
-/// passed over and keep no sand. dh/dt = deposition - erosion - div q (specification sec. 5.4, after Werner 1987,
-/// eqs. 5.3-5.6).
+/// passed over and keep no sand. dh/dt = deposition - erosion - div q (specification sec. 5.4, after Werner
+/// 1987, eqs. 5.3-5.6).
 ///
 /// Linear theory on a flat bed, with C = cot(alpha) - nu: growth rate K0 (C k^2 a / (1 + k^2 a^2) - mu a
 /// k^2), phase speed K0 C k^2 a^2 / (1 + k^2 a^2); fastest growth (K0 / a) (sqrt(C) - sqrt(mu))^2 at a

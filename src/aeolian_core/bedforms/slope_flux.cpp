@@ -25,7 +25,8 @@ inline __attribute__((always_inline)) double divergence(const double* h, const d
                                                         const double* h_behind, const double* a,
                                                         const double* a_before, const double* a_behind,
                                                         std::ptrdiff_t i) {
-  const double along = (a[i] + a_behind[i]) * (h_behind[i] - h[i]) - (a_before[i] + a[i]) * (h[i] - h_before[i]);
+  const double along =
+      (a[i] + a_behind[i]) * (h_behind[i] - h[i]) - (a_before[i] + a[i]) * (h[i] - h_before[i]);
   const double across = (a[i] + a[i + 1]) * (h[i + 1] - h[i]) - (a[i - 1] + a[i]) * (h[i] - h[i - 1]);
   return along + across;
 }
@@ -78,10 +79,10 @@ AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows h
   const double* const f = floors.here;
   const double* const o = opens.here;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double along = inflow(gain, a[i], activity.behind[i], h[i], height.behind[i], f[i], floors.behind[i],
-                                o[i], opens.behind[i]) +
-                         inflow(gain, a[i], activity.before[i], h[i], height.before[i], f[i], floors.before[i],
-                                o[i], opens.before[i]);
+    const double along = inflow(gain, a[i], activity.behind[i], h[i], height.behind[i], f[i],
+                                floors.behind[i], o[i], opens.behind[i]) +
+                         inflow(gain, a[i], activity.before[i], h[i], height.before[i], f[i],
+                                floors.before[i], o[i], opens.before[i]);
     const double across = inflow(gain, a[i], a[i + 1], h[i], h[i + 1], f[i], f[i + 1], o[i], o[i + 1]) +
                           inflow(gain, a[i], a[i - 1], h[i], h[i - 1], f[i], f[i - 1], o[i], o[i - 1]);
     next[i] = h[i] + (along + across);
@@ -106,8 +107,13 @@ void SlopeFlux::for_stations(Work&& work) const {
   tbb::parallel_for(0, (n + stations_at_once - 1) / stations_at_once, [&](int block) {
     for (int i = block * stations_at_once; i < std::min((block + 1) * stations_at_once, n); ++i)
       work(i, [&](const FrameField& field) {
-        return Rows{field.at(i), field.at(i > 0 ? i - 1 : periodic ? n - 1 : 0),
-                    field.at(i + 1 < n ? i + 1 : periodic ? 0 : n - 1)};
+        return Rows{field.at(i),
+                    field.at(i > 0      ? i - 1
+                             : periodic ? n - 1
+                                        : 0),
+                    field.at(i + 1 < n  ? i + 1
+                             : periodic ? 0
+                                        : n - 1)};
       });
   });
 }
@@ -118,7 +124,7 @@ void SlopeFlux::run(const FrameField& activity, double strongest_activity, doubl
   if (!(strongest > 0)) return;
   // One explicit step is stable to D dt / cell^2 = 1/4 in two dimensions. A Runge-Kutta-Legendre scheme of
   // second order and n stages covers (n^2 + n - 2) / 4 of them (Meyer, Balsara and Aslam 2014).
-  const double explicit_steps = strongest * duration / (0.2 * cell_ * cell_);
+  const double explicit_steps = strongest * duration / (0.25 * cell_ * cell_);
   const double stages = std::max(2.0, std::ceil(std::sqrt(2.25 + 4 * explicit_steps) - 0.5));
   // A face's activity is the sum of two, hence a half.
   const double gain = scale_ * duration / (2 * cell_ * cell_);
@@ -149,6 +155,7 @@ void SlopeFlux::run(const FrameField& activity, double strongest_activity, doubl
                     const HardGround& ground, const ActivePatches& active, FrameField& height) {
   const double strongest = scale_ * strongest_activity;
   if (!(strongest > 0)) return;
+  // A fifth keeps every cell between its neighbours.
   const double steps = std::ceil(strongest * duration / (0.2 * cell_ * cell_));
   const double gain = scale_ * duration / steps / (2 * cell_ * cell_);
   for (double step = 0; step < steps; ++step) {

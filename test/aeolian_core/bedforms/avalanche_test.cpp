@@ -114,7 +114,8 @@ TEST(AvalancheTest, single_rows_stations_and_cells_slide_too) {
 
 TEST(AvalancheTest, rock_holds_and_sand_on_it_slides_off) {
   // A block of rock with a layer of sand on top, and a column of unknown cells beside it.
-  Bed bed(60, 60, false, [](int i, int row) { return i > 20 && i < 40 && row > 20 && row < 40 ? 0.022 : 0.0; });
+  Bed bed(60, 60, false,
+          [](int i, int row) { return i > 20 && i < 40 && row > 20 && row < 40 ? 0.022 : 0.0; });
   HardGround ground{FrameField(60, 60), FrameField(60, 60)};
   for (int i = 0; i < 60; ++i) {
     for (int row = 0; row < 60; ++row) {

@@ -42,7 +42,8 @@ TEST(ImpactSweepTest, a_plane_is_struck_in_proportion_to_its_slope_against_the_g
       const Sweep sweep(80, 90, direction, false, [&](int x, int y) { return c * x + s * y; });
       const int middle = sweep.frame.rows() / 2;
       for (int station = 35; station < 45; ++station)
-        ASSERT_NEAR(sweep.erosion(station, middle), 1 + slope / tan_impact, 1e-9) << direction << ' ' << slope;
+        ASSERT_NEAR(sweep.erosion(station, middle), 1 + slope / tan_impact, 1e-9)
+            << direction << ' ' << slope;
     }
 }
 
