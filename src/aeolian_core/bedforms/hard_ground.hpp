@@ -16,6 +16,8 @@ struct HardGround {
   FrameField floor;  ///< height below which the wind erodes nothing [m]; `bottomless` where there is none
   FrameField open;   ///< 1, or 0 where the bed is unknown: sand passes over it and none comes to rest there
 
+  bool holes = false;  ///< whether `open` is zero anywhere
+
   bool any() const { return floor.rows() > 0; }
 };
 

@@ -60,8 +60,32 @@ AEOLIAN_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, dou
   }
 }
 
+/// Widens the range [low, high] by a station's heights above the dune.
+AEOLIAN_KERNEL void relief(std::ptrdiff_t count, const double* __restrict bed, const double* __restrict dune,
+                           double& low, double& high) {
+  constexpr int lanes = 8;
+  double least[lanes];
+  double most[lanes];
+  std::fill_n(least, lanes, low);
+  std::fill_n(most, lanes, high);
+  const std::ptrdiff_t whole = count / lanes * lanes;
+  for (std::ptrdiff_t i = 0; i < whole; i += lanes)
+    for (int k = 0; k < lanes; ++k) {
+      const double h = bed[i + k] - dune[i + k];
+      least[k] = h < least[k] ? h : least[k];
+      most[k] = h > most[k] ? h : most[k];
+    }
+  for (std::ptrdiff_t i = whole; i < count; ++i) {
+    const double h = bed[i] - dune[i];
+    least[0] = std::min(least[0], h);
+    most[0] = std::max(most[0], h);
+  }
+  low = *std::min_element(least, least + lanes);
+  high = *std::max_element(most, most + lanes);
+}
+
 constexpr int settle = stages * lag + 2;  ///< stations after which nothing of what was is in work
-constexpr double least_flux = 1e-10;      ///< of a flat bed's, that is still followed over bare ground
+constexpr double least_flux = 1e-14;  ///< of a flat bed's, that is still followed over bare ground
 
 constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
@@ -89,18 +113,12 @@ ImpactSweep::Stretch ImpactSweep::on_grid(int station) const {
   return {-offset, frame_.rows() + 1 - offset, offset};
 }
 
-/// Stations of a periodic bed to sweep before the first, for the envelope and the flux that come round.
-int ImpactSweep::spin_up(const FrameField& bed, const FrameField& dune) const {
+/// In stations, at most all.
+int ImpactSweep::longest_shadow(const FrameField& bed, const FrameField& dune) const {
   double low = bed.at(0)[0] - dune.at(0)[0];
   double high = low;
-  for (int i = 0; i < frame_.stations(); ++i)
-    for (int row = 0; row < frame_.rows(); ++row) {
-      const double h = bed.at(i)[row] - dune.at(i)[row];
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-  const double shaded = std::min<double>(frame_.stations(), std::ceil((high - low) / law_.drop));
-  return static_cast<int>(shaded + std::ceil(24 / -std::log(law_.carried))) + stages * lag;
+  for (int i = 0; i < frame_.stations(); ++i) relief(frame_.rows(), bed.at(i), dune.at(i), low, high);
+  return static_cast<int>(std::min<double>(frame_.stations(), std::ceil((high - low) / law_.drop)));
 }
 
 /// Some lines beside one another, swept from the first station to the last.
@@ -124,10 +142,24 @@ class ImpactSweep::Bundle {
   }
 
   Balance run(int first) {
+    int last_sandy = frame_.stations();
+    if (task_.ground && !frame_.periodic() && task_.shade < frame_.stations()) {
+      // Only what lies before sand, as far as its shadow may reach, matters, and where grains go from there.
+      int first_sandy = frame_.stations();
+      last_sandy = -1;
+      for (int station = 0; station < frame_.stations(); ++station) {
+        if (!any_sand(station)) continue;
+        first_sandy = std::min(first_sandy, station);
+        last_sandy = station;
+      }
+      if (last_sandy < 0) return balance_;
+      first = std::max(0, first_sandy - task_.shade - settle);
+    }
     for (int station = first; station < frame_.stations() + stages * lag; ++station) {
       if (!set_live(station)) continue;
       read(station);
       if (task_.ground && is_quiet(station)) {
+        if (station > last_sandy + settle) break;
         for (int s = 0; s < stages; ++s)
           if (station - s * lag >= first)
             stage_[at(s)].pass_over(law_, live_.begin, live_.end, height(0, station - s * lag));
@@ -212,6 +244,11 @@ class ImpactSweep::Bundle {
                       task_.ground->floor.at(where) + q, task_.ground->open.at(where) + q,
                       movable(station) + begin, passable(station) + begin);
     });
+  }
+
+  bool any_sand(int station) const {
+    const int offset = frame_.place(station).offset;
+    return task_.sandy->any(station, begin_ + offset - 3, end_ + offset + 3);
   }
 
   /// Whether nothing can move among this bundle's lines at the stations in work or next, and no grain is on
@@ -356,7 +393,7 @@ void ImpactSweep::close_period() {
 }
 
 void ImpactSweep::run(const FrameField& bed, const FrameField& dune, double depth) {
-  run(Task{bed, dune, nullptr, nullptr, depth});
+  run(Task{bed, dune, nullptr, nullptr, depth, frame_.stations()});
 }
 
 void ImpactSweep::run(const FrameField& bed, const FrameField& dune, const HardGround& ground,
@@ -367,7 +404,8 @@ void ImpactSweep::run(const FrameField& bed, const FrameField& dune, const HardG
       std::fill(deposition_.at(station) + begin, deposition_.at(station) + end + 1, 0.0);
     });
   active.fill(false);
-  run(Task{bed, dune, &ground, &sandy, depth});
+  const int shade = ground.holes ? frame_.stations() : longest_shadow(bed, dune);
+  run(Task{bed, dune, &ground, &sandy, depth, shade});
   for (const auto& bundle : touched_)
     for (const Touched& touched : bundle) {
       active.activate_rows(touched.station, touched.begin, touched.end);
@@ -380,7 +418,11 @@ void ImpactSweep::run(const Task& task) {
   const int lines = frame_.end_line() - frame_.first_line();
   const int bundles = (lines + bundle_lines - 1) / bundle_lines;
   const int each = (lines + bundles - 1) / bundles;
-  const int first = frame_.periodic() ? -spin_up(task.bed, task.dune) : 0;
+  // A periodic bed is swept some way before the first station, for the envelope and the flux that come round.
+  const int first = frame_.periodic()
+                        ? -longest_shadow(task.bed, task.dune) -
+                              static_cast<int>(std::ceil(24 / -std::log(law_.carried))) - stages * lag
+                        : 0;
   std::fill(seam_in_.begin(), seam_in_.end(), 0.0);
   std::fill(seam_out_.begin(), seam_out_.end(), 0.0);
   std::vector<Balance> balances(static_cast<std::size_t>(bundles));

@@ -58,6 +58,7 @@ class ImpactSweep {
     const HardGround* ground;  ///< null when there is none
     const ActivePatches* sandy;
     double depth;
+    int shade;  ///< stations that the longest shadow may cover; all where sand comes over unknown cells
   };
   struct Touched {
     int station, begin, end;  ///< rows
@@ -65,7 +66,7 @@ class ImpactSweep {
   class Bundle;
 
   Stretch on_grid(int station) const;
-  int spin_up(const FrameField& bed, const FrameField& dune) const;
+  int longest_shadow(const FrameField& bed, const FrameField& dune) const;
   void run(const Task& task);
   void close_period();
 

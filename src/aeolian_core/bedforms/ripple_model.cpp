@@ -25,7 +25,7 @@ void require(bool allowed, const char* name, double value, const char* range) {
 /// Says anew of the active patches whether sand lies there that can move.
 void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatches& active,
                ActivePatches& sandy) {
-  constexpr double least = 1e-12;  // [m], far less than a grain
+  constexpr double least = 1e-6;  // [m], far less than a grain
   active.for_all([&](int station, int patch, int begin, int end) {
     bool any = false;
     for (int row = begin; row < end; ++row)
@@ -144,6 +144,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   if (floor) {
     frame.enter(*floor, ground.floor);
     frame.enter(*open, ground.open);
+    ground.holes = std::find(open->begin(), open->end(), 0.0) != open->end();
   }
   ActivePatches active(frame.stations(), frame.rows());
   ActivePatches sandy = active;
