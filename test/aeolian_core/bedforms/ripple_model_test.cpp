@@ -322,6 +322,48 @@ TEST(RippleModelTest, every_map_and_every_time_step_gives_finite_heights) {
         }
 }
 
+TEST(RippleModelTest, thirty_days_of_turning_wind_keep_the_volume_and_stay_finite) {
+  const GridGeometry g(0, 0, 0.05, 48, 32);
+  std::vector<double> h = noise(g, 0.01);
+  for (double& z : h) z += 1;
+  const double before = sum(h);
+  RippleModel model(parameters(Border::periodic, 0.4, 1));
+  for (int day = 0; day < 30; ++day)
+    for (int half = 0; half < 2; ++half) {
+      const double direction = 0.37 * day + half * M_PI;  // turned round twice a day
+      EXPECT_NEAR(model.advance(g, h, wind(direction), 43200).volume.error(), 0, 1e-12);
+    }
+  EXPECT_NEAR(sum(h) / before, 1, 1e-12);
+  for (const double z : h) ASSERT_NEAR(z, 1, 1);
+}
+
+TEST(RippleModelTest, wind_that_turns_round_every_step_moves_no_ripple_far) {
+  const GridGeometry g(0, 0, 0.002, 100, 20);
+  std::vector<double> h(g.size());
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x) h[g.index(x, y)] = 0.001 * std::cos(2 * M_PI * x / 25.0);
+  RippleModel model(parameters(Border::periodic, 0.4, 1));
+  const std::complex<double> before = amplitude(g, h, 2 * M_PI / 0.05, 0);
+  for (int n = 0; n < 200; ++n) model.advance(g, h, wind(n % 2 * M_PI), 0.5);
+  const std::complex<double> after = amplitude(g, h, 2 * M_PI / 0.05, 0);
+  EXPECT_GT(std::abs(after), std::abs(before));
+  EXPECT_NEAR(std::arg(after / before), 0, 0.1);
+}
+
+TEST(RippleModelTest, cells_of_a_grain_to_a_metre_and_durations_over_six_decades_are_stable) {
+  for (const double cell : {0.0004, 0.01, 1.0})
+    for (const double duration : {1e-3, 1e-1, 10.0, 1e3}) {
+      const GridGeometry g(0, 0, cell, 40, 30);
+      std::vector<double> h = noise(g, 0.3 * cell);
+      const double highest = *std::max_element(h.begin(), h.end());
+      Forcing forcing = wind(0.5);
+      forcing.ejection_rate *= cell < 0.001 && duration > 100 ? 0.05 : 1;
+      const BedChange change = RippleModel(parameters(Border::open, 0.4, 1)).advance(g, h, forcing, duration);
+      EXPECT_NEAR(change.volume.error(), 0, 1e-9);
+      for (const double z : h) ASSERT_LT(std::abs(z), 10 * (highest + 0.05)) << cell << ' ' << duration;
+    }
+}
+
 TEST(RippleModelTest, weak_and_gale_force_winds_give_finite_heights) {
   for (const double factor : {1e-3, 1.0, 1e3}) {
     const GridGeometry g(0, 0, 0.002, 64, 32);
