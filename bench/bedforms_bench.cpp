@@ -76,6 +76,8 @@ void ripple_model(benchmark::State& state) {
   for (int y = 0; y < g.ny(); ++y)
     for (int x = 0; x < g.nx(); ++x)
       start[g.index(x, y)] = 0.003 * std::sin(60 * (g.x(x) + 0.05 * std::sin(20 * g.y(y))));
+  std::vector<double> first = start;
+  model.advance(g, first, forcing, 1);  // fetches the memory
   for (auto _ : state) {
     std::vector<double> h = start;
     model.advance(g, h, forcing, duration);
@@ -102,12 +104,14 @@ void sand_on_rock(benchmark::State& state) {
     for (int x = 0; x < g.nx(); ++x)
       if (std::abs(x - 512) < side / 2 && std::abs(y - 512) < side / 2)
         h[g.index(x, y)] = static_cast<float>(0.01 + 0.002 * std::sin(60 * g.x(x)));
+  HeightMap first = start;
+  RippleModel(RippleParameters{}).advance(first, forcing, 1);
   for (auto _ : state) {
     HeightMap map = start;
-    RippleModel(RippleParameters{}).advance(map, forcing, 60);
+    RippleModel(RippleParameters{}).advance(map, forcing, 200);
     benchmark::DoNotOptimize(map);
   }
-  state.counters["times_real_time"] = benchmark::Counter(60, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["times_real_time"] = benchmark::Counter(200, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(sand_on_rock)->Arg(0)->Arg(5)->Arg(10)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 

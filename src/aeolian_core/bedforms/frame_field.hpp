@@ -1,34 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <utility>
 #include <vector>
 
-#include <sys/mman.h>
-
 namespace aeolian {
 
-/// Memory in few large pages where the system has them: neighbours across a large field lie a page apart.
+/// Memory for large fields, in few large pages where the system has them: neighbours along the wind lie a
+/// page apart. What is given back is kept, up to a limit, for the next run: fresh pages cost as much as
+/// several steps.
+void* take_pages(std::size_t bytes);
+void give_pages(void* memory, std::size_t bytes);
+
 template <class T>
 struct LargePages {
   using value_type = T;
   LargePages() = default;
   template <class U>
   explicit LargePages(const LargePages<U>&) {}
-  T* allocate(std::size_t count) {
-    constexpr std::size_t page = std::size_t{1} << 21;
-    const std::size_t bytes = count * sizeof(T);
-    if (bytes < page / 2) return static_cast<T*>(::operator new (bytes, std::align_val_t{64}));
-    const std::size_t whole = (bytes + page - 1) / page * page;
-    void* const memory = ::operator new (whole, std::align_val_t{page});
-    madvise(memory, whole, MADV_HUGEPAGE);
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t count) {
-    constexpr std::size_t page = std::size_t{1} << 21;
-    ::operator delete (memory, std::align_val_t{count * sizeof(T) < page / 2 ? 64 : page});
-  }
+  T* allocate(std::size_t count) { return static_cast<T*>(take_pages(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t count) { give_pages(memory, count * sizeof(T)); }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }
   friend bool operator!=(const LargePages&, const LargePages&) { return false; }
 };
