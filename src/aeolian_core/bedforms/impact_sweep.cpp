@@ -85,7 +85,7 @@ AEOLIAN_KERNEL void relief(std::ptrdiff_t count, const double* __restrict bed, c
 }
 
 constexpr int settle = stages * lag + 2;  ///< stations after which nothing of what was is in work
-constexpr double least_flux = 1e-14;  ///< of a flat bed's, that is still followed over bare ground
+constexpr double least_flux = 1e-14;      ///< of a flat bed's, that is still followed over bare ground
 
 constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
