@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
 
@@ -46,29 +47,73 @@ std::vector<double> rippled(std::size_t cells) {
   return h;
 }
 
-/// Ripples on 512 x 512 cells for 10 s; the argument is the wind's direction in degrees.
+/// The unit of work is a cell over the time in which a flat bed loses half the drop of a falling grain over
+/// one cell, the longest stable step of Euler's method, whatever steps the model takes.
+double unit_step(const Forcing& forcing) {
+  return 0.5 * cell * std::tan(forcing.impact_angle) / forcing.erosion_rate();
+}
+
+void count(benchmark::State& state, double cells, double duration, const Forcing& forcing) {
+  using benchmark::Counter;
+  const double updates = cells * duration / unit_step(forcing);
+  state.counters["cell_updates/s"] = Counter(updates, Counter::kIsIterationInvariantRate);
+  // A step of the model is two units; the least it could do is to read the bed and write it.
+  state.counters["of_bandwidth"] =
+      Counter(16 * updates / 2 / memory_bandwidth(), Counter::kIsIterationInvariantRate);
+  state.counters["times_real_time"] = Counter(duration, Counter::kIsIterationInvariantRate);
+}
+
+/// Ripples on 512 x 512 cells; arguments: the wind's direction in degrees, threads. Process time is of all
+/// threads together.
 void ripple_model(benchmark::State& state) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(1)));
   const GridGeometry g(0, 0, cell, 512, 512);
   const Forcing forcing = wind(static_cast<double>(state.range(0)) * M_PI / 180);
-  const double duration = 10;
+  const double duration = 200;
   RippleModel model(RippleParameters{});
-  std::vector<double> h(g.size());
+  std::vector<double> start(g.size());
   for (int y = 0; y < g.ny(); ++y)
     for (int x = 0; x < g.nx(); ++x)
-      h[g.index(x, y)] = 0.003 * std::sin(60 * (g.x(x) + 0.05 * std::sin(20 * g.y(y))));
+      start[g.index(x, y)] = 0.003 * std::sin(60 * (g.x(x) + 0.05 * std::sin(20 * g.y(y))));
+  std::vector<double> first = start;
+  model.advance(g, first, forcing, 1);  // fetches the memory
   for (auto _ : state) {
+    std::vector<double> h = start;
     model.advance(g, h, forcing, duration);
     benchmark::DoNotOptimize(h.data());
   }
-  // The unit of work is a cell over the time in which a flat bed loses half the drop of a falling grain over
-  // one cell: the longest stable explicit step, whatever steps the model takes.
-  const double step = 0.5 * cell * std::tan(forcing.impact_angle) / forcing.erosion_rate();
-  state.counters["cell_updates/s"] = benchmark::Counter(static_cast<double>(g.size()) * duration / step,
-                                                        benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["times_real_time"] =
-      benchmark::Counter(duration, benchmark::Counter::kIsIterationInvariantRate);
+  count(state, static_cast<double>(g.size()), duration, forcing);
 }
-BENCHMARK(ripple_model)->Arg(0)->Arg(5)->Arg(45)->Arg(90)->Unit(benchmark::kMillisecond);
+BENCHMARK(ripple_model)
+    ->ArgsProduct({{0, 17, 45, 90}, {1, 2}})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// A square of sand on bare hard ground of 1024 x 1024 cells; the argument is its share in percent.
+void sand_on_rock(benchmark::State& state) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+  const GridGeometry g(0, 0, cell, 1024, 1024);
+  const Forcing forcing = wind(0.3);
+  const double side = std::sqrt(static_cast<double>(state.range(0)) / 100) * 1024;
+  HeightMap start(g);
+  start.add(layer::ground, 0.0F);
+  HeightMap::Layer& h = start.add(layer::elevation, 0.0F);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      if (std::abs(x - 512) < side / 2 && std::abs(y - 512) < side / 2)
+        h[g.index(x, y)] = static_cast<float>(0.01 + 0.002 * std::sin(60 * g.x(x)));
+  HeightMap first = start;
+  RippleModel(RippleParameters{}).advance(first, forcing, 1);
+  for (auto _ : state) {
+    HeightMap map = start;
+    RippleModel(RippleParameters{}).advance(map, forcing, 200);
+    benchmark::DoNotOptimize(map);
+  }
+  state.counters["times_real_time"] = benchmark::Counter(200, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(sand_on_rock)->Arg(0)->Arg(5)->Arg(10)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 
 /// A lattice of 1 m x 0.5 m at 0.8 mm that has no ripples yet; the argument is the wind's direction in
 /// degrees.

@@ -2,60 +2,79 @@
 
 #include <vector>
 
+#include "aeolian_core/bedforms/hard_ground.hpp"
+#include "aeolian_core/bedforms/hop_stage.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
 
 namespace aeolian {
 
-/// Where the impact rain sets grains reptating and where they come down, on a bed given in a wind frame.
+/// Where the impact rain sets grains reptating and where they come down within one step of time, on a bed
+/// given in a wind frame.
 ///
 /// Erosion follows exposure; hops are exponentially distributed on a flat bed and end early where the bed has
 /// risen since take-off, late where it has fallen, by `shortening` times the rise: 1 / tangent of the angle
 /// at which grains come down. To first order in the rise, so that it is a flux, -shortening (h F - G), where
 /// F is the flux of grains through a height h and G the same flux with each grain times its height of
-/// take-off. Everything is relative to a flat bed: erosion and deposition are 1 there. What leaves a line is
-/// in `outflow`, what enters in `inflow`, in flat-bed cells: the sums over all cells obey deposition -
-/// erosion = inflow - outflow to rounding.
+/// take-off. Everything is relative to a flat bed: erosion and deposition are 1 there.
+///
+/// Lines are swept side by side, and each is stepped in time by itself by Heun's method: the second stage
+/// follows the first two stations behind, so that a bed is read once per step.
 class ImpactSweep {
  public:
   /// `hop` is the mean reptation length [m].
   ImpactSweep(const WindFrame& frame, double tan_impact_angle, double hop, double shortening);
 
-  /// `height` [m] above the dune-scale surface, indexed as the frame says.
-  void run(const std::vector<double>& height);
+  /// Sweeps a bed over a step in which a flat bed loses `depth` [m]. Heights [m] with pads filled; impacts
+  /// see the height above `dune`.
+  void run(const FrameField& bed, const FrameField& dune, double depth);
 
-  const std::vector<double>& erosion() const { return erosion_; }
-  /// May fall below zero where the bed is so steep that hops change much over a cell.
-  const std::vector<double>& deposition() const { return deposition_; }
+  /// The same on hard ground, where no more is eroded than lies on it at the beginning of the step. Lines do
+  /// no work where `sandy` says that nothing can move and no grain arrives. `active`, which is of the last
+  /// run or full, becomes the patches that deposition may reach; elsewhere nothing changes.
+  void run(const FrameField& bed, const FrameField& dune, const HardGround& ground,
+           const ActivePatches& sandy, double depth, ActivePatches& active);
+
+  /// Means over the step for line q at a station: between rows q - 1 and q, q = 0 ... rows. Deposition may
+  /// fall below zero where the bed is so steep that hops change much over a cell.
+  const FrameField& erosion() const { return erosion_; }
+  const FrameField& deposition() const { return deposition_; }
+  /// Flux that lines bring in and take out at open borders, in flat-bed cells.
   double inflow() const { return inflow_; }
   double outflow() const { return outflow_; }
 
  private:
   struct Stretch {
-    std::size_t begin, end;  ///< stations at which a line is on the grid
+    int begin, end;  ///< lines j
+    int shift;       ///< q - j
   };
-  struct Flux {
-    double grains;   ///< F, in flat-bed erosions of one cell
-    double heights;  ///< G, the same times the heights of take-off [m]
+  struct Balance {
+    double inflow = 0;
+    double outflow = 0;
   };
-  Stretch stretch_of(int line) const;
-  int wrapped(int row) const;
-  void gather(const std::vector<double>& height, int line, Stretch stretch);
-  void scatter(int line, Stretch stretch);
-  void erode(Stretch stretch, double envelope);
-  Flux hop_along(Stretch stretch, Flux flux, double before, double after);
-  double shift(Flux flux, double height) const;
-  void run_periodic(const std::vector<double>& height);
-  void run_open(const std::vector<double>& height);
+  /// What a run works on.
+  struct Task {
+    const FrameField& bed;
+    const FrameField& dune;
+    const HardGround* ground;  ///< null when there is none
+    const ActivePatches* sandy;
+    double depth;
+    int shade;  ///< stations that the longest shadow may cover; all where sand comes over unknown cells
+  };
+  struct Touched {
+    int station, begin, end;  ///< rows
+  };
+  class Bundle;
+
+  Stretch on_grid(int station) const;
+  int longest_shadow(const FrameField& bed, const FrameField& dune) const;
+  void run(const Task& task);
+  void close_period();
 
   const WindFrame& frame_;
-  double drop_;        ///< height lost by a falling grain from station to station [m]
-  double carried_;     ///< share of the reptation flux that passes a station
-  double launched_;    ///< share of a cell's ejected grains that leave the cell
-  double shortening_;  ///< shift of flux per metre of rise [1/m]
-  std::vector<double> line_height_, line_exposure_, line_erosion_, line_deposition_;
-  std::vector<double> envelope_, first_height_, last_height_;  ///< of each periodic line
-  std::vector<Flux> sent_, received_;
-  std::vector<double> erosion_, deposition_;
+  HopLaw law_;
+  FrameField erosion_, deposition_;
+  std::vector<double> seam_in_, seam_out_;
+  std::vector<std::vector<Touched>> touched_;  ///< by each bundle
   double inflow_ = 0;
   double outflow_ = 0;
 };

@@ -47,6 +47,29 @@ void box_mean(std::vector<double>& row, int half, bool periodic, std::vector<dou
   }
 }
 
+/// Running mean over 2 half + 1 rows, for all columns at the same time.
+std::vector<double> box_mean_of_rows(const GridGeometry& g, const std::vector<double>& values, int half,
+                                     bool periodic) {
+  const int n = g.ny();
+  const auto nx = static_cast<std::size_t>(g.nx());
+  std::vector<double> sums(nx, 0.0);
+  std::vector<double> result(values.size());
+  const auto add = [&](int y, double sign) {
+    if (!periodic && (y < 0 || y >= n)) return;
+    const double* const row = &values[g.index(0, (y % n + n) % n)];
+    for (std::size_t x = 0; x < nx; ++x) sums[x] += sign * row[x];
+  };
+  for (int y = -half; y < half; ++y) add(y, 1);
+  for (int y = 0; y < n; ++y) {
+    add(y + half, 1);
+    const int count = periodic ? 2 * half + 1 : std::min(y + half + 1, n) - std::max(y - half, 0);
+    double* const row = &result[g.index(0, y)];
+    for (std::size_t x = 0; x < nx; ++x) row[x] = sums[x] / count;
+    add(y - half, -1);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> dune_surface(const GridGeometry& g, const std::vector<double>& height, double scale,
@@ -62,12 +85,7 @@ std::vector<double> dune_surface(const GridGeometry& g, const std::vector<double
       box_mean(row, half, periodic, sums);
       std::copy(row.begin(), row.end(), first);
     }
-    for (int x = 0; x < g.nx(); ++x) {
-      row.clear();
-      for (int y = 0; y < g.ny(); ++y) row.push_back(result[g.index(x, y)]);
-      box_mean(row, half, periodic, sums);
-      for (int y = 0; y < g.ny(); ++y) result[g.index(x, y)] = row[static_cast<std::size_t>(y)];
-    }
+    result = box_mean_of_rows(g, result, half, periodic);
   }
   return result;
 }

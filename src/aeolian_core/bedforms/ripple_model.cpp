@@ -5,7 +5,10 @@
 #include <string>
 
 #include "aeolian_core/bedforms/avalanche.hpp"
+#include "aeolian_core/bedforms/hard_ground.hpp"
 #include "aeolian_core/bedforms/impact_sweep.hpp"
+#include "aeolian_core/bedforms/lateral_spread.hpp"
+#include "aeolian_core/bedforms/lay_down.hpp"
 #include "aeolian_core/bedforms/relief.hpp"
 #include "aeolian_core/bedforms/slope_flux.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
@@ -14,39 +17,33 @@
 namespace aeolian {
 namespace {
 
-/// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
-/// cell. Half of it is stable; a quarter keeps the error of the growth rate below that of the cells.
-constexpr double step_limit = 0.25;
-
 void require(bool allowed, const char* name, double value, const char* range) {
   if (!allowed)
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
 }
 
-/// Tiles in which a slope, to any of the eight neighbours, exceeds repose.
-TileMask too_steep(const GridGeometry& g, const std::vector<double>& height, double tan_repose,
-                   bool periodic) {
-  const double straight = tan_repose * g.cell() * 1.001;
-  const double diagonal = straight * std::sqrt(2.0);
-  TileMask result(g);
-  for (int y = 0; y < g.ny(); ++y) {
-    const int up = y + 1 < g.ny() ? y + 1 : 0;
-    const bool has_up = y + 1 < g.ny() || periodic;
-    for (int x = 0; x < g.nx(); ++x) {
-      const int right = x + 1 < g.nx() ? x + 1 : 0;
-      const bool has_right = x + 1 < g.nx() || periodic;
-      const double here = height[g.index(x, y)];
-      const bool steep = (has_right && std::abs(height[g.index(right, y)] - here) > straight) ||
-                         (has_up && std::abs(height[g.index(x, up)] - here) > straight) ||
-                         (has_right && has_up &&
-                          (std::abs(height[g.index(right, up)] - here) > diagonal ||
-                           std::abs(height[g.index(right, y)] - height[g.index(x, up)]) > diagonal));
-      if (!steep) continue;
-      result.activate(x, y);
-      result.activate(right, up);
-    }
+/// Says anew of the active patches whether sand lies there that can move.
+void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatches& active,
+               ActivePatches& sandy) {
+  constexpr double least = 1e-6;  // [m], far less than a grain
+  active.for_all([&](int station, int patch, int begin, int end) {
+    bool any = false;
+    for (int row = begin; row < end; ++row)
+      any = any ||
+            (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] > least;
+    sandy.set(station, patch, any);
+  });
+}
+
+void clear(const ActivePatches& active, const WindFrame& frame, FrameField& field) {
+  for (int station = 0; station < frame.stations(); ++station) {
+    bool any = false;
+    active.for_runs(station, [&](int begin, int end) {
+      std::fill(field.at(station) + begin, field.at(station) + end, 0.0);
+      any = true;
+    });
+    if (any) field.fill_pads(station, frame.periodic());
   }
-  return result;
 }
 
 TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
@@ -78,6 +75,7 @@ RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(param
           parameters.hop_shortening, "zero or more and finite");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
+  require(parameters.step > 0 && parameters.step <= 1, "step", parameters.step, "above zero, at most one");
   require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
 }
 
@@ -90,7 +88,20 @@ BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double du
     return {TileMask(map.geometry()), {}};
   const HeightMap::Layer whole = filled(map.geometry(), elevation);
   std::vector<double> height(whole.begin(), whole.end());
-  BedChange change = advance(map.geometry(), height, forcing, duration);
+  if (count_known(elevation) == elevation.size() && !map.has(layer::ground)) {
+    const BedChange change = advance(map.geometry(), height, forcing, duration);
+    store(height, elevation);
+    return change;
+  }
+  std::vector<double> floor(height.size(), HardGround::bottomless);
+  std::vector<double> open(height.size());
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    open[i] = std::isfinite(elevation[i]) ? 1 : 0;
+    if (!map.has(layer::ground)) continue;
+    const double ground = map.layer(layer::ground)[i];
+    if (std::isfinite(ground)) floor[i] = std::min(ground, height[i]);
+  }
+  const BedChange change = advance(map.geometry(), height, &floor, &open, forcing, duration);
   store(height, elevation);
   return change;
 }
@@ -103,6 +114,12 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
                 std::to_string(geometry.size()) + " cells");
   if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
     throw Error("ripple model: a height is not finite");
+  return advance(geometry, height, nullptr, nullptr, forcing, duration);
+}
+
+BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
+                               const std::vector<double>* floor, const std::vector<double>* open,
+                               const Forcing& forcing, double duration) const {
   const double erosion_rate = forcing.erosion_rate();
   const double hop = forcing.reptation_length;
   if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
@@ -111,45 +128,55 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double cell = geometry.cell();
   const double tan_impact = std::tan(forcing.impact_angle);
   const double tan_repose = std::tan(forcing.grain.angle_of_repose);
-  const double spread = parameters_.lateral_spread * hop / cell;
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
   ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
+  SlopeFlux slopes(frame, cell, slope_scale);
+  Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
+  const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
 
   const std::vector<double> start = height;
-  std::vector<double> dune, bed, above(height.size()), deposition, scratch;
+  FrameField dune, bed;
+  FrameField activity(frame.stations(), frame.rows());
   frame.enter(dune_surface(geometry, height, parameters_.relief_scale, periodic), dune);
   frame.enter(height, bed);
+  HardGround ground;
+  if (floor) {
+    frame.enter(*floor, ground.floor);
+    frame.enter(*open, ground.open);
+    ground.holes = std::find(open->begin(), open->end(), 0.0) != open->end();
+  }
+  ActivePatches active(frame.stations(), frame.rows());
+  ActivePatches sandy = active;
 
   VolumeBalance volume;
   const double steps =
-      std::max(1.0, std::ceil(duration * erosion_rate / (step_limit * frame.step() * tan_impact)));
+      std::max(1.0, std::ceil(duration * erosion_rate / (parameters_.step * frame.step() * tan_impact)));
   const double dt = duration / steps;
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
   for (double step = 0; step < steps; ++step) {
-    for (std::size_t i = 0; i < bed.size(); ++i) above[i] = bed[i] - dune[i];
-    impacts.run(above);
-    deposition = impacts.deposition();
-    spread_across(frame, spread, deposition, scratch);
-    double eroded = 0;
-    for (std::size_t i = 0; i < bed.size(); ++i) {
-      bed[i] += depth * (deposition[i] - impacts.erosion()[i]);
-      eroded += impacts.erosion()[i];
+    if (ground.any()) {
+      find_sand(bed, ground, active, sandy);
+      clear(active, frame, activity);
+      impacts.run(bed, dune, ground, sandy, depth, active);
+    } else {
+      impacts.run(bed, dune, depth);
     }
-    volume.moved += eroded * depth * area;
-    volume.inflow += impacts.inflow() * depth * area;
-    volume.outflow += impacts.outflow() * depth * area;
-    for (double& d : deposition) d = std::max(d, 0.0);  // rolls only where grains come down
-    apply_slope_flux(frame, cell, slope_scale, deposition, dt, bed, scratch);
-
-    frame.leave(bed, height);
-    TileMask steep = too_steep(geometry, height, tan_repose, periodic);
-    if (!steep.empty()) {
-      volume.moved += avalanche(geometry, height, tan_repose, periodic, steep);
-      frame.enter(height, bed);
+    const LaidDown laid =
+        lay_down(frame, impacts, spread, depth, ground.any() ? &ground.open : nullptr, active, bed, activity);
+    volume.moved += laid.eroded * depth * area;
+    volume.inflow += laid.inflow * depth * area;
+    volume.outflow += laid.outflow * depth * area;
+    if (ground.any()) {
+      slopes.run(activity, laid.strongest, dt, ground, active, bed);
+      volume.moved += avalanches.run(bed, ground, active);
+    } else {
+      slopes.run(activity, laid.strongest, dt, bed);
+      volume.moved += avalanches.run(bed);
     }
   }
+  frame.leave(bed, height);
   for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;
   return {changed_tiles(geometry, start, height), volume};
 }

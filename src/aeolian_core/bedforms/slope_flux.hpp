@@ -1,21 +1,32 @@
 #pragma once
 
-#include <vector>
-
-#include "aeolian_core/bedforms/wind_frame.hpp"
+#include "aeolian_core/bedforms/hard_ground.hpp"
 
 namespace aeolian {
 
-/// Moves sand down the slopes by the flux q = -D grad h with D = `scale` * `activity` (per cell), conserving
-/// volume to rounding, over `duration` [s]; explicit, in as many substeps as its stability asks for.
-/// `periodic` borders are joined, others are walls. Heights and activity are indexed as the frame says;
-/// `scratch` is kept between calls.
-void apply_slope_flux(const WindFrame& frame, double cell, double scale, const std::vector<double>& activity,
-                      double duration, std::vector<double>& height, std::vector<double>& scratch);
+/// Moves sand down the slopes by the flux q = -D grad h with D = `scale` * activity (per cell), conserving
+/// volume to rounding. Periodic borders are joined, others are walls.
+class SlopeFlux {
+ public:
+  SlopeFlux(const WindFrame& frame, double cell, double scale);
 
-/// Spreads values across the wind with a standard deviation of `sigma` rows, conserving their sum to
-/// rounding; borders as above.
-void spread_across(const WindFrame& frame, double sigma, std::vector<double>& values,
-                   std::vector<double>& scratch);
+  /// Acts for `duration` [s] in as many explicit stages as the strongest activity asks for, second order in
+  /// time. `activity` and `height` have their pads filled, and so has the new height.
+  void run(const FrameField& activity, double strongest_activity, double duration, FrameField& height);
+
+  /// The same on hard ground, among active patches: no more flows out of a cell than lies in it, nothing
+  /// through what is not open.
+  void run(const FrameField& activity, double strongest_activity, double duration, const HardGround& ground,
+           const ActivePatches& active, FrameField& height);
+
+ private:
+  template <class Work>
+  void for_stations(Work&& work) const;
+
+  const WindFrame& frame_;
+  double cell_;
+  double scale_;
+  FrameField next_, start_, first_;
+};
 
 }  // namespace aeolian

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "aeolian_core/bedforms/frame_field.hpp"
 #include "aeolian_core/surface/grid_geometry.hpp"
 
 namespace aeolian {
@@ -11,52 +11,57 @@ namespace aeolian {
 /// and the lines along the wind that cover it.
 ///
 /// In the frame a cell is (station, row): stations count downwind along the grid axis nearest to the wind,
-/// rows across; index = row * stations + station. A line visits every station once and drifts across by
-/// `drift` rows per station; between two rows a value is shared by both, in proportion.
+/// rows across. Line j visits every station once; at a station it lies between rows q - 1 and q, where q = j
+/// + offset, with the share `upper` in the latter. It drifts across by `drift` rows per station, alike for
+/// all lines.
 class WindFrame {
  public:
-  /// `periodic` rounds the drift so that lines close: line j of one period goes on as line j + turn of the
-  /// next.
+  /// `periodic` rounds the drift so that lines close after one period.
   WindFrame(const GridGeometry& geometry, double direction, bool periodic);
 
-  std::size_t stations() const { return stations_; }
-  std::size_t rows() const { return rows_; }
+  int stations() const { return stations_; }
+  int rows() const { return rows_; }
   bool periodic() const { return periodic_; }
+  /// Rows by which lines move across per station, -1 to 1: the tangent of the wind's angle to the first axis.
+  double drift() const { return drift_; }
   /// Length along the wind from one station to the next [m].
   double step() const { return step_; }
+  /// What the blend of two rows takes from a wave across them, gathering or scattering: mean of upper (1 -
+  /// upper).
+  double blur() const { return blur_; }
 
-  /// One line's place at a station: between row `row` and `row + 1`, with the share `upper` in the latter.
   struct Place {
-    int row;
+    int offset;
     double upper;
   };
-  /// Place of line 0 at each station; line j is j rows further.
-  const std::vector<Place>& places() const { return places_; }
-  /// Lines that cover the grid: rows() when periodic, else from first_line() so many that every cell is on
-  /// two of them.
+  /// Where the lines lie at a station, which may be off the grid.
+  Place place(int station) const {
+    if (station >= 0 && station < stations_) return places_[static_cast<std::size_t>(station)];
+    return computed_place(station);
+  }
+
+  /// Lines that have part in the grid: first_line() <= j < end_line().
   int first_line() const { return first_line_; }
-  int lines() const { return lines_; }
-  /// Rows by which a periodic line is displaced after one period.
-  int turn() const { return turn_; }
+  int end_line() const { return end_line_; }
 
   /// Copies a grid's values (x fastest) into the frame and back.
-  void enter(const std::vector<double>& grid, std::vector<double>& frame) const;
-  void leave(const std::vector<double>& frame, std::vector<double>& grid) const;
+  void enter(const std::vector<double>& grid, FrameField& frame) const;
+  void leave(const FrameField& frame, std::vector<double>& grid) const;
 
  private:
-  template <class Visit>
-  void for_each_pair(Visit&& visit) const;
+  Place computed_place(int station) const;
 
-  std::size_t stations_;
-  std::size_t rows_;
+  int stations_;
+  int rows_;
   bool transposed_;
   bool reversed_;
   bool periodic_;
+  double drift_ = 0;
   double step_ = 0;
-  std::vector<Place> places_;
+  double blur_ = 0;
+  std::vector<Place> places_;  ///< at the stations of the grid
   int first_line_ = 0;
-  int lines_ = 0;
-  int turn_ = 0;
+  int end_line_ = 0;
 };
 
 }  // namespace aeolian

@@ -1,0 +1,94 @@
+#include "aeolian_core/bedforms/impact_sweep.hpp"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace aeolian {
+namespace {
+
+constexpr double cell = 0.001;
+const double tan_impact = std::tan(10 * M_PI / 180);
+
+/// A sweep so short that the bed does not change.
+struct Sweep {
+  GridGeometry geometry;
+  WindFrame frame;
+  ImpactSweep impacts;
+
+  Sweep(int nx, int ny, double direction, bool periodic, const std::function<double(int, int)>& height)
+      : geometry(0, 0, cell, nx, ny),
+        frame(geometry, direction, periodic),
+        impacts(frame, tan_impact, 0.01, 1) {
+    std::vector<double> h(geometry.size());
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) h[geometry.index(x, y)] = height(x, y);
+    FrameField bed, dune;
+    frame.enter(h, bed);
+    frame.enter(std::vector<double>(h.size(), 0.0), dune);
+    impacts.run(bed, dune, 1e-12);
+  }
+  double erosion(int station, int line) const { return impacts.erosion().at(station)[line]; }
+};
+
+TEST(ImpactSweepTest, a_plane_is_struck_in_proportion_to_its_slope_against_the_grains) {
+  // Werner 1987, eq. 5.6 per horizontal length: 1 + tan(slope) / tan(impact angle).
+  for (const double direction : {0.0, 0.3, M_PI / 4, 2.0, -1.2})
+    for (const double slope : {-0.1, 0.05, 0.3}) {
+      const double c = slope * cell * std::cos(direction);
+      const double s = slope * cell * std::sin(direction);
+      const Sweep sweep(80, 90, direction, false, [&](int x, int y) { return c * x + s * y; });
+      const int middle = sweep.frame.rows() / 2;
+      for (int station = 35; station < 45; ++station)
+        ASSERT_NEAR(sweep.erosion(station, middle), 1 + slope / tan_impact, 1e-9)
+            << direction << ' ' << slope;
+    }
+}
+
+TEST(ImpactSweepTest, a_shadow_ends_where_grains_pass_the_crest) {
+  constexpr double crest = 0.01;
+  const Sweep sweep(300, 12, 0, false, [](int x, int) { return x >= 50 && x < 60 ? crest : 0.0; });
+  const double end = 59 + crest / tan_impact / cell;
+  for (int station = 61; station < 300; ++station) {
+    if (station < end - 1) {
+      ASSERT_EQ(sweep.erosion(station, 6), 0) << station;
+    } else if (station > end + 1) {
+      ASSERT_NEAR(sweep.erosion(station, 6), 1, 1e-9) << station;
+    }
+  }
+}
+
+TEST(ImpactSweepTest, every_impact_of_the_supply_strikes_a_periodic_bed) {
+  for (const double direction : {0.0, 0.3, M_PI / 4, 2.0}) {
+    const Sweep sweep(120, 100, direction, true, [](int x, int y) {
+      return 0.006 * std::sin(2 * M_PI * x / 40) + 0.003 * std::cos(2 * M_PI * (y - x) / 20);
+    });
+    double struck = 0;
+    double fell = 0;
+    for (int station = 0; station < sweep.frame.stations(); ++station)
+      for (int q = 0; q < sweep.frame.rows(); ++q) {
+        struck += sweep.erosion(station, q);
+        fell += sweep.impacts.deposition().at(station)[q];
+      }
+    EXPECT_NEAR(struck / 12000, 1, 1e-12) << direction;
+    EXPECT_NEAR(fell / struck, 1, 1e-12) << direction;
+  }
+}
+
+TEST(ImpactSweepTest, what_enters_an_open_bed_leaves_it_or_stays) {
+  for (const double direction : {0.0, 0.3, -0.6, M_PI / 4}) {
+    const Sweep sweep(90, 70, direction, false,
+                      [](int x, int y) { return 0.004 * std::sin(0.3 * x + 0.1 * std::sin(0.2 * y)); });
+    const WindFrame& frame = sweep.frame;
+    double gain = 0;
+    for (int station = 0; station < frame.stations(); ++station)
+      for (int q = 0; q <= frame.rows(); ++q)
+        gain += sweep.impacts.deposition().at(station)[q] - sweep.erosion(station, q);
+    EXPECT_NEAR(gain, sweep.impacts.inflow() - sweep.impacts.outflow(), 1e-9) << direction;
+  }
+}
+
+}  // namespace
+}  // namespace aeolian
