@@ -35,14 +35,14 @@ struct FirstContact {
 ///
 /// Vectors are in the frame of Impact: x along the flight, y to the left, z up.
 struct RisenGrain {
-  int grain;                 ///< its number in the bed
-  double time;               ///< after the first contact [s]
-  double radius;             ///< [m]
-  double spin;               ///< size of it [rad/s]
-  Eigen::Vector3d place;     ///< at that time, in the bed [m]
-  Eigen::Vector3d velocity;  ///< at that time [m/s]
-  Eigen::Vector3d origin;    ///< from the point of impact to its place in the bed at rest [m]
-  int layer;                 ///< of the bed that it came from; 0 for the incident grain
+  int grain;                                           ///< its number in the bed
+  double time;                                         ///< after the first contact [s]
+  double radius;                                       ///< [m]
+  double spin;                                         ///< size of it [rad/s]
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< at that time, in the bed [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at that time [m/s]
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< from the impact to its place in the bed at rest [m]
+  int layer;  ///< of the bed that it came from; 0 for the incident grain
   Origin kind = Origin::other;
 };
 
