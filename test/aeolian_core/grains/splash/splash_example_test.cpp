@@ -43,7 +43,7 @@ std::string text_of(const std::string& path) {
 }
 
 TEST(SplashExampleTest, stands_in_the_documentation) {
-  const std::string source = text_of("/test/aeolian_core/grains/splash_example_test.cpp");
+  const std::string source = text_of("/test/aeolian_core/grains/splash/splash_example_test.cpp");
   const std::string mark = "// [example]\n";
   const std::size_t from = source.find(mark) + mark.size();
   const std::string example = source.substr(from, source.find(mark, from) - from);
