@@ -119,6 +119,17 @@ TEST(MixtureTest, too_weak_a_wind_moves_no_size) {
   }
 }
 
+TEST(MixtureTest, wide_mixtures_are_solved_or_told_why_not) {
+  for (const GrainMixture& wide :
+       {GrainMixture{{0.0001, 0.001}, {0.95, 0.05}}, GrainMixture{{0.00003, 0.003}, {0.5, 0.5}}})
+    for (const double u : {0.01, 0.3, 1.0}) {
+      const MixtureState state = solver_of(wide).solve(u);
+      EXPECT_TRUE(std::isfinite(state.mass_flux() + state.impact_rate()));
+      EXPECT_EQ(state.steady(), state.mass_flux() > 0);
+      EXPECT_EQ(state.steady(), state.sizes[0].reason.empty());
+    }
+}
+
 TEST(MixtureTest, refuses_what_is_no_mixture) {
   for (const GrainMixture& bad :
        {GrainMixture{}, GrainMixture{{0.00025}, {0.5, 0.5}}, GrainMixture{{0.00025, -0.0001}, {0.5, 0.5}},
