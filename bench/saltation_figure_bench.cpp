@@ -1,12 +1,17 @@
-// Draws the error of saltation against its run time: docs/accuracy/saltation_time.svg.
+// Draws the error of saltation against its run time and against its grids into a folder: saltation_time.svg
+// and saltation_grid.svg.
 //
-//     catkin_ws/devel/lib/aeolian_twin/saltation_figure_bench docs/accuracy/saltation_time.svg
+//     catkin_ws/devel/lib/aeolian_twin/saltation_figure_bench docs/accuracy
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "saltation_convergence.hpp"
+#include "saltation_grid.hpp"
 
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
@@ -14,7 +19,7 @@
 namespace aeolian {
 namespace {
 
-void draw(const std::string& path) {
+void draw_time(const std::string& path) {
   std::map<std::string, Curve> curves;
   for (const Convergence& c : measure_convergence()) {
     std::string name = c.way;
@@ -40,6 +45,53 @@ void draw(const std::string& path) {
   plot_svg(script.str(), 900, 460, path);
 }
 
+void draw_grids(const std::string& path) {
+  struct Panel {
+    Curve surface, flux, usual;
+  };
+  std::map<std::string, Panel> panels;
+  for (const GridError& e : measure_grids()) {
+    Panel& panel = panels[e.grid];
+    for (const auto& [curve, error] :
+         {std::pair{&panel.surface, e.surface}, std::pair{&panel.flux, e.flux}}) {
+      curve->x.push_back(e.size);
+      curve->y.push_back(100 * error);
+      if (!e.usual) continue;
+      panel.usual.x.push_back(e.size);
+      panel.usual.y.push_back(100 * error);
+    }
+  }
+  std::ostringstream script;
+  script << plot_style
+         << "set logscale xy\nset format y '10^{%T}'\nset grid x y\nset offsets graph 0.05, graph 0.05, "
+            "graph 0, graph 0\n"
+         << "set ylabel 'error [%]'\nset multiplot layout 2,2\n";
+  int n = 0;
+  for (const auto& [grid, panel] : panels) {
+    write_data(script, fmt::format("s{}", n), panel.surface);
+    write_data(script, fmt::format("q{}", n), panel.flux);
+    write_data(script, fmt::format("u{}", n), panel.usual);
+    const auto [least, most] = std::minmax_element(panel.flux.x.begin(), panel.flux.x.end());
+    std::string tics;
+    for (const double size : panel.flux.x)
+      tics += fmt::format(
+          "{}'{}' {}", tics.empty() ? "" : ", ",
+          size < 0.1 ? fmt::format("10^{{{:g}}}", std::log10(size)) : fmt::format("{:g}", size), size);
+    const bool falls = panel.flux.x.front() < panel.flux.x.back();
+    script << fmt::format("set xlabel '{}'\nset xrange [{}:{}]\nset xtics ({})\n{}\n", grid, *least / 1.6,
+                          *most * 1.6, tics, falls ? "set key top right" : "unset key")
+           << fmt::format(
+                  "plot $q{0} with linespoints lw 2 pt 7 lc rgb '#c2571a' title 'flux', $s{0} with "
+                  "linespoints lw 2 "
+                  "pt 5 lc rgb '#3c6e9f' title 'wind at the bed', $u{0} with points pt 6 ps 2.4 lw 2 lc rgb "
+                  "'#2e2723' title 'as solved by default'\n",
+                  n);
+    ++n;
+  }
+  script << "unset multiplot\n";
+  plot_svg(script.str(), 1000, 760, path);
+}
+
 }  // namespace
 }  // namespace aeolian
 
@@ -47,7 +99,9 @@ int main(int argc, char** argv) {
   // Among all benchmarks, without a path, there is nothing to do.
   if (argc < 2) return 0;
   try {
-    aeolian::draw(argv[1]);
+    const std::string folder = argv[1];
+    aeolian::draw_time(folder + "/saltation_time.svg");
+    aeolian::draw_grids(folder + "/saltation_grid.svg");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "saltation_figure_bench: %s\n", error.what());

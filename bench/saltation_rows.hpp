@@ -14,6 +14,7 @@ void state_rows(AccuracyTable& table);    ///< table 4.5 and thresholds
 void profile_rows(AccuracyTable& table);  ///< trajectories, winds, table 4.4, focus
 void flux_rows(AccuracyTable& table);     ///< flux law, heights of flights
 void sand_rows(AccuracyTable& table);     ///< coarse sand, real sand
+void mixture_rows(AccuracyTable& table);  ///< several sizes
 /// @}
 
 constexpr double percent = 0.01;

@@ -57,6 +57,29 @@ TEST(SaltationTest, gusts_drive_the_flux) {
             0);
 }
 
+TEST(SaltationTest, a_mixture_is_told_by_size) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("sizes.csv")) << "diameter_mm,share\n0.2,25\n0.25,50\n0.3,25\n";
+  const Outcome run = run_program("saltation --friction-velocity 0.4 --mixture " + folder.file("sizes.csv") +
+                                  " --out " + folder.file("out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const YAML::Node all = YAML::LoadFile(folder.file("out/mixture.yaml"));
+  const Table sizes = read_csv(folder.file("out/mixture.csv"));
+  ASSERT_EQ(sizes.rows(), 3u);
+  EXPECT_EQ(sizes.column("share")[1], 0.5);
+  double flux = 0, stress = 0;
+  for (std::size_t s = 0; s < sizes.rows(); ++s) {
+    flux += sizes.column("mass_flux_kg_m_s")[s];
+    stress += sizes.column("grain_stress_Pa")[s];
+  }
+  EXPECT_NEAR(flux / all["mass_flux_kg_m_s"].as<double>(), 1, 1e-5);
+  const auto surface = all["surface_friction_velocity_m_s"].as<double>();
+  EXPECT_NEAR(stress / (1.225 * (0.16 - surface * surface)), 1, 1e-4);
+  // Sizes so close together move like the mean one.
+  const YAML::Node mean = YAML::LoadFile(folder.file("out/summary.yaml"))["state"];
+  EXPECT_NEAR(flux / mean["mass_flux_kg_m_s"].as<double>(), 1, 0.05);
+}
+
 TEST(SaltationTest, too_weak_a_wind_is_a_result) {
   const TemporaryFolder folder;
   const Outcome run = run_program("saltation --friction-velocity 0.1 --out " + folder.file("out"));
@@ -85,6 +108,8 @@ TEST(SaltationTest, bad_input_is_told_by_flag_and_value) {
               {"--friction-velocity 0.4 --splash table:absent.csv", "absent.csv"},
               {"--friction-velocity 0.4 --grain-diameter-mm 0", "--grain-diameter-mm"},
               {"--friction-velocity 0.4 --splash werner --case 9", "--case"},
+              {"--friction-velocity 0.4 --mixture absent.csv", "absent.csv"},
+              {"--friction-velocity 0.4 --splash werner --mixture absent.csv", "--mixture"},
               {"--friction-velocity 0.4 --gusts absent.csv", "absent.csv"},
               {"--friction-velocity 0.1 --gusts absent.csv", "--gusts"},
               {"--friction-velocity 0.4 --air-density 0", "--air-density"}};

@@ -6,7 +6,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double negligible = 1e-6;       ///< classes below this part of all grains are not flown
 constexpr double cut_off_allowed = 1e-4;  ///< at the fast end, relative to the largest
 constexpr double counted = 1e-3;  ///< parts of a spectrum from here on must settle, relative to the largest
 constexpr int memory = 5;
@@ -19,10 +18,10 @@ constexpr double surface_weight = 3;
 
 }  // namespace
 
-Approach::Approach(const SaltatingBed& bed, const SplashKernel& splash, const Drag& drag,
+Approach::Approach(const SaltatingBed& bed, const SplashKernel& splash, const FlyingGrains& grains,
                    double flight_tolerance)
     : bed_(bed),
-      drag_(drag),
+      grains_(grains),
       flight_tolerance_(flight_tolerance),
       splash_(splash.clone()),
       mixing_(memory),
@@ -53,8 +52,8 @@ void Approach::step() {
   splash_->launch(spectrum_, launches_);
   landings_.resize(launches_.size());
   stress_.assign(WindProfile::levels, 0);
-  fly(launches_, negligible, {wind_, drag_, bed_.atmosphere.gravity, flight_tolerance_}, landings_, stress_);
-  splash_->splash(launches_, negligible, landings_, next_spectrum_);
+  grains_.fly(launches_, wind_, bed_.atmosphere.gravity, flight_tolerance_, landings_, stress_);
+  splash_->splash(launches_, grains_.negligible(), landings_, next_spectrum_);
   replacement_ = splash_->number(next_spectrum_);
 
   spectrum_change_ = 0;
@@ -124,7 +123,7 @@ bool Approach::settled(double tolerance) const {
 double Approach::flux_over_stress() const {
   double length = 0;
   for (std::size_t k = 0; k < launches_.size(); ++k)
-    if (launches_.number[k] > negligible) length += launches_.number[k] * landings_.length[k];
+    if (launches_.number[k] > grains_.negligible()) length += launches_.number[k] * landings_.length[k];
   return length / stress_[0];
 }
 
@@ -140,7 +139,7 @@ SteadyState Approach::state() const {
   s.grain_stress = next_share_;
   for (double& stress : s.grain_stress) stress *= borne;
   const double rate = borne / (s.grain_mass * stress_[0]);
-  for (double& number : s.launches.number) number = number > negligible ? number * rate : 0;
+  for (double& number : s.launches.number) number = number > grains_.negligible() ? number * rate : 0;
   s.iterations = steps_;
   s.replacement = replacement_;
   s.spectrum_change = spectrum_change_;

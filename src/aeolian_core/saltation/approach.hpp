@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "aeolian_core/saltation/flying_grains.hpp"
 #include "aeolian_core/saltation/mixing.hpp"
 #include "aeolian_core/saltation/steady_state.hpp"
 
@@ -11,7 +12,8 @@ namespace aeolian {
 /// A spectrum of launches and a wind on their way to the steady state.
 class Approach {
  public:
-  Approach(const SaltatingBed& bed, const SplashKernel& splash, const Drag& drag, double flight_tolerance);
+  Approach(const SaltatingBed& bed, const SplashKernel& splash, const FlyingGrains& grains,
+           double flight_tolerance);
 
   /// The winds from now on: free, and at the surface, not above it [m/s].
   void set_winds(double free, double surface);
@@ -48,7 +50,7 @@ class Approach {
 
  private:
   const SaltatingBed& bed_;
-  const Drag& drag_;
+  const FlyingGrains& grains_;
   double flight_tolerance_;
   std::unique_ptr<SplashKernel> splash_;
   AndersonMixing mixing_;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double fastest_launch = 100;  ///< [m/s]
 constexpr int knots_per_octave = 16;
-constexpr double slowest_impact = 1.0 / 64;  ///< [m/s], below: in proportion
+constexpr double slowest_impact = 1.0 / 64;               ///< [m/s], below: in proportion
+constexpr std::size_t all_knots = 16 * knots_per_octave;  ///< up to 1000 m/s
 
 void require(bool allowed, const char* constant, double value, const char* range) {
   if (!allowed)
@@ -31,8 +32,9 @@ double exponential_between(double low, double high, double mean) {
 KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere,
                                const KokRennoConstants& constants, int speeds_per_octave, int angles)
     : c_(constants),
-      scale_(std::sqrt(atmosphere.gravity * grain.diameter)),
-      slowest_(constants.slowest * scale_),
+      scale_(std::sqrt(atmosphere.gravity *
+                       (constants.bed_diameter > 0 ? constants.bed_diameter : grain.diameter))),
+      slowest_(constants.slowest * std::sqrt(atmosphere.gravity * grain.diameter)),
       speeds_per_octave_(speeds_per_octave),
       angles_(static_cast<std::size_t>(angles)) {
   check(grain);
@@ -53,6 +55,7 @@ KokRennoKernel::KokRennoKernel(const Grain& grain, const Atmosphere& atmosphere,
   require(c.ejecta_angle > 0 && c.ejecta_angle <= M_PI, "ejecta angle", c.ejecta_angle, "above 0 to pi");
   require(c.steepest > 0.5 && c.steepest <= M_PI, "steepest angle", c.steepest, "0.5 to pi");
   require(c.slowest >= 0.01 && c.slowest <= 10, "slowest launch", c.slowest, "0.01 to 10 sqrt(g d)");
+  require(c.bed_diameter >= 0 && c.bed_diameter <= 1, "bed diameter", c.bed_diameter, "0 to 1 m");
   if (speeds_per_octave < 1 || speeds_per_octave > 32 || angles < 2 || angles > 256)
     throw Error("Kok & Renno's splash: bins of speed and angle are " + std::to_string(speeds_per_octave) +
                 " and " + std::to_string(angles) + ", must be 1 to 32 in an octave and 2 to 256");
@@ -90,11 +93,9 @@ void KokRennoKernel::set_bins(std::size_t bins) {
     }
   }
 
-  knots_ =
-      static_cast<std::size_t>(knots_per_octave * std::ceil(std::log2(4 * edge_[bins] / slowest_impact)));
-  table_.assign(knots_ * 2 * bins, 0);
+  table_.assign(all_knots * 2 * bins, 0);
   const double least = 0.01, most = 0.999;
-  for (std::size_t n = 0; n < knots_; ++n) {
+  for (std::size_t n = 0; n < all_knots; ++n) {
     const double v = slowest_impact * std::exp2(static_cast<double>(n) / knots_per_octave);
     double* rebounds = &table_[n * 2 * bins];
     double* ejecta = rebounds + bins;
@@ -133,22 +134,40 @@ void KokRennoKernel::launch(const std::vector<double>& spectrum, Launches& launc
       launches.number[k] = spectrum[i] * rebound_part_[k] + spectrum[bins_ + i] * ejecta_part_[k];
 }
 
-void KokRennoKernel::splash(const Launches& launches, double least, const Landings& landings,
-                            std::vector<double>& spectrum) const {
-  std::vector<double> impacts(knots_);
-  for (std::size_t k = 0; k < launches.size(); ++k) {
+std::size_t KokRennoKernel::knots() { return all_knots; }
+
+void KokRennoKernel::count_impacts(const Launches& launches, std::size_t first, std::size_t last,
+                                   double least, const Landings& landings, std::vector<double>& impacts) {
+  for (std::size_t k = first; k < last; ++k) {
     if (!(launches.number[k] > least)) continue;
     const double v = std::hypot(landings.vx[k], landings.vy[k]);
     const double at = knots_per_octave * std::log2(std::max(v, slowest_impact) / slowest_impact);
-    const auto n = std::min(static_cast<std::size_t>(at), knots_ - 2);
+    const auto n = std::min(static_cast<std::size_t>(at), all_knots - 2);
     const double part = std::min(1.0, at - static_cast<double>(n));
     impacts[n] += launches.number[k] * (1 - part);
     impacts[n + 1] += launches.number[k] * part;
   }
+}
+
+void KokRennoKernel::splash(const std::vector<double>& rebounding, const std::vector<double>& ejecting,
+                            std::vector<double>& spectrum) const {
   spectrum.assign(2 * bins_, 0);
-  for (std::size_t n = 0; n < knots_; ++n)
-    if (impacts[n] > 0)
-      for (std::size_t i = 0; i < 2 * bins_; ++i) spectrum[i] += impacts[n] * table_[n * 2 * bins_ + i];
+  for (std::size_t n = 0; n < all_knots; ++n) {
+    const double* rebounds = &table_[n * 2 * bins_];
+    const double* ejecta = rebounds + bins_;
+    if (!(rebounding[n] > 0 || ejecting[n] > 0)) continue;
+    for (std::size_t i = 0; i < bins_; ++i) {
+      spectrum[i] += rebounding[n] * rebounds[i];
+      spectrum[bins_ + i] += ejecting[n] * ejecta[i];
+    }
+  }
+}
+
+void KokRennoKernel::splash(const Launches& launches, double least, const Landings& landings,
+                            std::vector<double>& spectrum) const {
+  std::vector<double> impacts(all_knots);
+  count_impacts(launches, 0, launches.size(), least, landings, impacts);
+  splash(impacts, impacts, spectrum);
 }
 
 double KokRennoKernel::number(const std::vector<double>& spectrum) const {

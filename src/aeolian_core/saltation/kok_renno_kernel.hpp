@@ -22,6 +22,9 @@ struct KokRennoConstants {
   /// 17 rather than 14 degrees.
   double steepest = M_PI_2;
   double slowest = 0.14;  ///< launches are counted from this speed on, over sqrt(g d)
+  /// D [m] of a bed of several sizes: ejecta follow sqrt(g D), from impacts by grains of the kernel's size
+  /// onto the same. Zero: the grain's own.
+  double bed_diameter = 0;
 };
 
 /// Kok & Renno's splash (KokRennoRebound, KokRennoEjection) without its rejection of single impacts that
@@ -43,6 +46,15 @@ class KokRennoKernel : public SplashKernel {
   double cut_off(const std::vector<double>& spectrum) const override;
   bool extend(std::vector<double>& spectrum) override;
 
+  /// Impacts by speed, at knots that are the same for all kernels: classes [first, last) whose number is
+  /// above `least`, added up.
+  static void count_impacts(const Launches& launches, std::size_t first, std::size_t last, double least,
+                            const Landings& landings, std::vector<double>& impacts);
+  static std::size_t knots();
+  /// The spectrum of impacts counted so, of which some rebound and some throw up grains; writes all of it.
+  void splash(const std::vector<double>& rebounding, const std::vector<double>& ejecting,
+              std::vector<double>& spectrum) const;
+
   /// The part of a spectrum's grains that are rebounds.
   double rebound_share(const std::vector<double>& spectrum) const;
 
@@ -50,7 +62,7 @@ class KokRennoKernel : public SplashKernel {
   void set_bins(std::size_t bins);
 
   KokRennoConstants c_;
-  double scale_;    ///< sqrt(g d) [m/s]
+  double scale_;    ///< sqrt(g d) [m/s], of ejecta
   double slowest_;  ///< vertical speed of a launch [m/s]
   int speeds_per_octave_;
   std::size_t angles_;
@@ -59,7 +71,6 @@ class KokRennoKernel : public SplashKernel {
   Launches classes_;                                ///< velocities of all
   std::vector<double> rebound_part_, ejecta_part_;  ///< of a bin in each angle, of those that escape
   std::vector<double> table_;                       ///< spectrum of one impact at each knot of speed
-  std::size_t knots_ = 0;
 };
 
 }  // namespace aeolian

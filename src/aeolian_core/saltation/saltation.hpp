@@ -14,6 +14,7 @@
 #include "aeolian_core/saltation/flux_response.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/literal_iteration.hpp"
+#include "aeolian_core/saltation/mixture_solver.hpp"
 #include "aeolian_core/saltation/profiles.hpp"
 #include "aeolian_core/saltation/saltation_state.hpp"
 #include "aeolian_core/saltation/saltation_table.hpp"

@@ -66,13 +66,16 @@ bool dies_out(const Approach& approach, double tolerance) {
 
 SaltationSolver::SaltationSolver(const SaltatingBed& bed, const SplashKernel& splash,
                                  const SolverSettings& settings)
-    : bed_((check(bed), bed)),
-      splash_(splash.clone()),
-      settings_(settings),
-      drag_(bed.drag_law, bed.grain, bed.atmosphere, bed.drag_scale) {}
+    : SaltationSolver((check(bed), bed),
+                      FlyingGrains(Drag(bed.drag_law, bed.grain, bed.atmosphere, bed.drag_scale)), splash,
+                      settings) {}
+
+SaltationSolver::SaltationSolver(const SaltatingBed& bed, const FlyingGrains& grains,
+                                 const SplashKernel& splash, const SolverSettings& settings)
+    : bed_((check(bed), bed)), splash_(splash.clone()), settings_(settings), grains_(grains) {}
 
 SteadyState SaltationSolver::approach_from(double free, const SteadyState* begin) const {
-  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
+  Approach approach(bed_, *splash_, grains_, settings_.flight_tolerance);
   const double most = pinned * free;
   double surface = 0.8 * bed_.fluid_threshold();
   if (begin) {
@@ -154,7 +157,7 @@ SteadyState SaltationSolver::solve(double free, const SteadyState* begin) const 
 }
 
 SteadyState SaltationSolver::bisect(double free) const {
-  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
+  Approach approach(bed_, *splash_, grains_, settings_.flight_tolerance);
   const double tolerance = settings_.tolerance;
   double low = calm * free;
   double high = pinned * free;
@@ -175,7 +178,7 @@ std::optional<double> SaltationSolver::impact_threshold(std::string* why) const 
     if (why) *why = reason;
     return std::nullopt;
   };
-  Approach approach(bed_, *splash_, drag_, settings_.flight_tolerance);
+  Approach approach(bed_, *splash_, grains_, settings_.flight_tolerance);
   double wind = 0.8 * bed_.fluid_threshold();
   for (int n = 0; n < 200; ++n) {
     const double next = thin_step(approach, wind);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "aeolian_core/grains/grain.hpp"
-#include "aeolian_core/saltation/flight.hpp"
+#include "aeolian_core/saltation/flying_grains.hpp"
 #include "aeolian_core/saltation/splash_kernel.hpp"
 
 namespace aeolian {
@@ -79,6 +79,9 @@ class SaltationSolver {
  public:
   /// Throws Error for a bed that is not physical.
   SaltationSolver(const SaltatingBed& bed, const SplashKernel& splash, const SolverSettings& settings = {});
+  /// Grains of several sizes that are like the bed's on the mean; states count masses in the bed's grain.
+  SaltationSolver(const SaltatingBed& bed, const FlyingGrains& grains, const SplashKernel& splash,
+                  const SolverSettings& settings);
 
   /// Throws Error for a friction velocity that is negative, not finite or above 10 m/s.
   SteadyState solve(double friction_velocity, const SteadyState* begin = nullptr) const;
@@ -100,7 +103,7 @@ class SaltationSolver {
   SaltatingBed bed_;
   std::unique_ptr<SplashKernel> splash_;
   SolverSettings settings_;
-  Drag drag_;
+  FlyingGrains grains_;
 };
 
 }  // namespace aeolian

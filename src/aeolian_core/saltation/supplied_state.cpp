@@ -35,8 +35,8 @@ SteadyState supplied_state(const SaltatingBed& bed, const SplashKernel& splash, 
   if (!(mass_flux > 0 && std::isfinite(mass_flux)))
     throw Error("saltation: the supplied flux is " + std::to_string(mass_flux) +
                 " kg/(m s), must be positive");
-  const Drag drag(bed.drag_law, bed.grain, bed.atmosphere, bed.drag_scale);
-  Approach approach(bed, splash, drag, settings.flight_tolerance);
+  const FlyingGrains grains(Drag(bed.drag_law, bed.grain, bed.atmosphere, bed.drag_scale));
+  Approach approach(bed, splash, grains, settings.flight_tolerance);
   double surface = 0.99 * free;
   approach.set_winds(free, surface);
   for (int n = 0; n < 20 * settings.most_iterations; ++n) {

@@ -56,17 +56,6 @@ Table launch_table(const SteadyState& s) {
   return table;
 }
 
-const char* word(SteadyState::Outcome outcome) {
-  switch (outcome) {
-    case SteadyState::Outcome::steady:
-      return "steady";
-    case SteadyState::Outcome::below_threshold:
-      return "below_threshold";
-    default:
-      return "none";
-  }
-}
-
 double mean_of(const std::vector<double>& time, const std::vector<double>& value) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < time.size(); ++i)
@@ -77,7 +66,7 @@ double mean_of(const std::vector<double>& time, const std::vector<double>& value
 void put_state(YAML::Emitter& out, const SolvedWind& wind) {
   const SteadyState& s = wind.state;
   const SaltationState means = summary(s, 0);
-  put(out, "outcome", word(s.outcome));
+  put(out, "outcome", outcome_word(s.outcome));
   if (!s.reason.empty()) put(out, "reason", s.reason);
   put(out, "friction_velocity_m_s", s.friction_velocity);
   put(out, "surface_friction_velocity_m_s", s.surface_friction_velocity);
@@ -96,6 +85,17 @@ void put_state(YAML::Emitter& out, const SolvedWind& wind) {
 }
 
 }  // namespace
+
+const char* outcome_word(SteadyState::Outcome outcome) {
+  switch (outcome) {
+    case SteadyState::Outcome::steady:
+      return "steady";
+    case SteadyState::Outcome::below_threshold:
+      return "below_threshold";
+    default:
+      return "none";
+  }
+}
 
 void write_saltation_tables(const SaltationRun& run, const std::string& folder) {
   const SolvedWind& wind = run.asked();

@@ -35,6 +35,9 @@ struct GustRun {
   std::vector<double> in_time;  ///< by eq. 4.35; empty where it was not asked for
 };
 
+/// How an outcome is told in files: steady, below_threshold or none.
+const char* outcome_word(SteadyState::Outcome outcome);
+
 /// Writes profiles.csv (all by height), wind.csv (levels of the solver, from the roughness length upwards)
 /// and launches.csv (each class of launches with its landing) into a folder.
 void write_saltation_tables(const SaltationRun& run, const std::string& folder);

@@ -14,6 +14,7 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/wind/log_law.hpp"
 #include "aeolian_core/wind/wind_record.hpp"
+#include "aeolian_twin/saltation/mixture_files.hpp"
 #include "aeolian_twin/saltation/saltation_plots.hpp"
 #include "aeolian_twin/saltation/splash_choice.hpp"
 #include "aeolian_twin/tools/program.hpp"
@@ -32,6 +33,9 @@ Splash functions: kok_renno (Kok & Renno 2009, for sand), werner (eq. 4.34 of We
 ungar_haff (one speed of launch), coarse_sand (Werner's experiment), table:FILE (a splash table).
 
 With --gusts a recorded wind (columns t_s, speed_m_s, direction_deg or from_deg) drives the flux: gusts.csv and gusts.svg.
+With --mixture (columns diameter_mm and share of the bed) grains of several sizes saltate in one wind, by kok_renno:
+mixture.csv (each size) and mixture.yaml (all together). All else is that of the mean diameter alone, for comparison.
+
 With --write-table states over diameters of 0.1 to 1 mm and winds up to five times the threshold are kept in a file.)";
 
 struct Options {
@@ -43,6 +47,7 @@ struct Options {
   Atmosphere atmosphere;
   DragLaw drag_law = DragLaw::sand;
   double drag_scale = 1;
+  std::string mixture;
   std::string gusts;
   double anemometer_height = 1;
   bool in_time = false;
@@ -120,6 +125,23 @@ GustRun blow(const Options& o, const SaltationRun& run, const SplashKernel& spla
   return g;
 }
 
+MixtureRun mix(const SaltatingBed& bed, const GrainMixture& mixture, double friction_velocity) {
+  const MixtureSolver solver(bed, mixture);
+  MixtureRun run{mixture, solver.solve(friction_velocity), {}, {}};
+  run.impact_threshold = solver.impact_threshold(&run.no_threshold);
+  return run;
+}
+
+void tell(const MixtureRun& run) {
+  const MixtureState& all = run.state;
+  if (all.steady())
+    fmt::print("mixture of {} sizes: flux {:.4g} kg/(m s), u* at the bed {:.3g} m/s; threshold {:.3g} m/s\n",
+               all.sizes.size(), all.mass_flux(), all.sizes.front().surface_friction_velocity,
+               run.impact_threshold.value_or(0));
+  else
+    fmt::print("mixture of {} sizes: no saltation: {}\n", all.sizes.size(), all.sizes.front().reason);
+}
+
 void tell(const SaltationRun& run) {
   const SteadyState& s = run.asked().state;
   if (s.steady())
@@ -137,9 +159,9 @@ int run(int argc, char** argv) {
   CLI::App app(description);
   Options o;
   app.add_option("--friction-velocity", o.friction_velocity, "u* of the free wind [m/s]")->required();
-  app.add_option("--grain-diameter-mm", o.diameter_mm, "[mm]")
-      ->check(CLI::Range(0.01, 10.0))
-      ->capture_default_str();
+  CLI::Option* diameter = app.add_option("--grain-diameter-mm", o.diameter_mm, "[mm]")
+                              ->check(CLI::Range(0.01, 10.0))
+                              ->capture_default_str();
   app.add_option("--grain-density", o.density, "[kg/m^3]")
       ->check(CLI::Range(50.0, 20000.0))
       ->capture_default_str();
@@ -163,6 +185,8 @@ int run(int argc, char** argv) {
   app.add_option("--drag-scale", o.drag_scale, "multiplies the drag; 0.62 agrees with the thesis' figures")
       ->check(CLI::Range(0.01, 10.0))
       ->capture_default_str();
+  app.add_option("--mixture", o.mixture, "CSV of the sizes in the bed, instead of one diameter")
+      ->excludes(diameter);
   CLI::Option* gusts = app.add_option("--gusts", o.gusts, "CSV of a recorded wind");
   app.add_option("--anemometer-height", o.anemometer_height, "of the wind in --gusts [m]")
       ->capture_default_str()
@@ -173,6 +197,14 @@ int run(int argc, char** argv) {
   app.add_option("--out", o.out, "folder for the results")->required();
   if (const auto code = parse(app, argc, argv)) return *code;
 
+  std::optional<GrainMixture> mixture;
+  if (!o.mixture.empty()) {
+    if (o.splash != "kok_renno")
+      throw Error("--mixture: --splash is '" + o.splash +
+                  "', must be kok_renno: no other knows several sizes");
+    mixture = read_mixture(o.mixture);
+    o.diameter_mm = 1e3 * mixture->mean_diameter();
+  }
   const SaltatingBed bed = bed_of(o);
   const std::unique_ptr<SplashKernel> splash = splash_choice(o.splash, bed, o.thesis_case);
   if (!(o.friction_velocity >= 0 && o.friction_velocity <= 10))
@@ -182,6 +214,9 @@ int run(int argc, char** argv) {
   std::optional<GustRun> gust_run;
   if (!o.gusts.empty()) gust_run = blow(o, found, *splash);
 
+  std::optional<MixtureRun> mixed;
+  if (mixture) mixed = mix(bed, *mixture, o.friction_velocity);
+
   make_directory(o.out);
   write_saltation_tables(found, o.out);
   plot_saltation(found, o.out);
@@ -189,6 +224,7 @@ int run(int argc, char** argv) {
     write_gusts(*gust_run, o.out);
     plot_gusts(*gust_run, o.out);
   }
+  if (mixed) write_mixture(*mixed, o.out);
   write_saltation_summary(found, gust_run, o.out);
   if (!o.table.empty())
     SaltationTable::build(
@@ -196,6 +232,7 @@ int run(int argc, char** argv) {
         SaltationTable::usual_diameters(), SaltationTable::usual_ratios())
         .write(o.table);
   tell(found);
+  if (mixed) tell(*mixed);
   return 0;
 }
 
