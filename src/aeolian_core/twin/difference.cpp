@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/kernel.hpp"
@@ -48,11 +50,14 @@ AEOLIAN_KERNEL void detect(const float* __restrict a, const float* __restrict b,
   for (std::size_t i = 0; i < count; ++i) result[i] = sigmas_of_95_percent * std::sqrt(a[i] + b[i]);
 }
 
-/// A layer made of two others block by block, so that its memory is touched once.
+/// A layer made of two others block by block, so that its memory, that of `reused` if it suffices, is touched
+/// once.
 template <class Work>
-HeightMap::Layer combined(const HeightMap::Layer& a, const HeightMap::Layer& b, Work&& work) {
+HeightMap::Layer combined(const HeightMap::Layer& a, const HeightMap::Layer& b, Work&& work,
+                          HeightMap::Layer reused = {}) {
   require_same_size(a, b);
-  HeightMap::Layer result;
+  HeightMap::Layer result = std::move(reused);
+  result.clear();
   result.reserve(a.size());
   std::array<float, block> values;
   for (std::size_t at = 0; at < a.size(); at += block) {
@@ -193,18 +198,22 @@ HeightMap::Layer level_of_detection(const HeightMap::Layer& variance_a, const He
   return combined(variance_a, variance_b, detect);
 }
 
-HeightMap difference_map(const HeightMap& a, const HeightMap& b) {
+HeightMap difference_map(const HeightMap& a, const HeightMap& b, HeightMap reused) {
   if (a.geometry().nx() != b.geometry().nx())
     throw Error("difference: the maps have rows of " + std::to_string(a.geometry().nx()) + " and " +
                 std::to_string(b.geometry().nx()) + " cells, must be of the same grid");
+  const auto memory = [&](const std::string& name) {
+    return reused.has(name) ? std::move(reused.layer(name)) : HeightMap::Layer();
+  };
   HeightMap result(a.geometry());
-  result.add(layer::difference, difference(a.layer(layer::elevation), b.layer(layer::elevation)));
+  result.add(layer::difference, combined(a.layer(layer::elevation), b.layer(layer::elevation), subtract,
+                                         memory(layer::difference)));
   const bool of_a = a.has(layer::variance);
   const bool of_b = b.has(layer::variance);
   if (!of_a && !of_b) return result;
   const HeightMap::Layer exact(of_a && of_b ? 0 : a.geometry().size(), 0);
-  result.add(layer::lod95, level_of_detection(of_a ? a.layer(layer::variance) : exact,
-                                              of_b ? b.layer(layer::variance) : exact));
+  result.add(layer::lod95, combined(of_a ? a.layer(layer::variance) : exact,
+                                    of_b ? b.layer(layer::variance) : exact, detect, memory(layer::lod95)));
   return result;
 }
 

@@ -152,5 +152,20 @@ TEST_F(LevelOfDetection, TakesAMapWithoutVarianceAsExact) {
   EXPECT_THROW(difference_map(measured, HeightMap(GridGeometry(0, 0, 0.5, 200, 300))), Error);
 }
 
+TEST_F(LevelOfDetection, IsTheSameInTheMemoryOfAnotherMap) {
+  const HeightMap forecast = survey(0.02, 1, level);
+  const HeightMap measured = survey(0.03, 2, level);
+  const HeightMap fresh = difference_map(forecast, measured);
+  HeightMap small(GridGeometry(0, 0, 1, 3, 2));
+  small.add(layer::difference, 7);
+  small.add(layer::elevation, 7);
+  for (const HeightMap& old : {small, difference_map(measured, survey(0.5, 3, level))}) {
+    const HeightMap again = difference_map(forecast, measured, old);
+    EXPECT_EQ(again.geometry(), fresh.geometry());
+    EXPECT_EQ(again.names(), fresh.names());
+    for (const std::string& name : fresh.names()) EXPECT_EQ(again.layer(name), fresh.layer(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace aeolian
