@@ -156,7 +156,7 @@ TEST_F(FusionOrder, OfChunksAndReadingOfQuickScansOfABedThatRestsAndMoves) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(geometry.size())), 0.0004) << "1.2 mm have fallen";
 }
 
-/// A still bed of 2 x 2 tiles, seen at 10 Hz but for a band of a tile's breadth less one cell.
+/// A still bed of 2 x 2 tiles, seen at 10 Hz but for the last column of cells.
 class FusionOfAStillBed : public FusionOrder {
  protected:
   static constexpr double seen_to = 0.63;  // [m], of 0.64
@@ -168,9 +168,7 @@ class FusionOfAStillBed : public FusionOrder {
                           0.0008 * random.normal());
     return seen_from(pose(), points);
   }
-  FusionResult add(HeightFusion& fusion, int k) const {
-    return fusion.add(scan_of(k, 0, seen_to), pose(), 0.1 * k);
-  }
+  static FusionResult add(HeightFusion& to, int k) { return to.add(scan_of(k, 0, seen_to), pose(), 0.1 * k); }
   HeightFusion fusion{GridGeometry(0, 0, 0.01, 64, 64), FusionParameters()};
 };
 
