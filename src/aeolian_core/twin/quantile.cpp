@@ -72,14 +72,11 @@ std::size_t narrow(std::vector<double>& sample, Bracket ranks) {
   return below;
 }
 
-/// The value at a place (from 0) between the ranks of a sample, of which little is left.
+/// The value at a place (from 0) between the ranks of a sample, which is reordered.
 double value_at_place(std::vector<double>& sample, double place) {
-  const double rank = std::floor(place);
-  const double fraction = place - rank;
-  const double last = static_cast<double>(sample.size() - 1);
-  const std::size_t gone = narrow(sample, {rank, std::min(rank + 1, last)});
-  const auto below = sample.begin() + (static_cast<std::ptrdiff_t>(rank) - static_cast<std::ptrdiff_t>(gone));
+  const auto below = sample.begin() + static_cast<std::ptrdiff_t>(place);
   std::nth_element(sample.begin(), below, sample.end());
+  const double fraction = place - std::floor(place);
   if (fraction == 0) return *below;  // also keeps an infinite value from becoming NaN
   const double above = *std::min_element(below + 1, sample.end());
   return *below == above ? above : *below + fraction * (above - *below);
@@ -168,8 +165,11 @@ double quantile_of(const std::vector<float>& values, std::size_t known, double s
       below += v < bracket.low ? 1 : 0;
     }
     const double place = share * static_cast<double>(known - 1) - static_cast<double>(below);
-    if (place >= 0 && std::floor(place) + 1 < static_cast<double>(between.size()))
-      return value_at_place(between, place);
+    const Bracket ranks{std::floor(place), std::floor(place) + 1};
+    if (ranks.low >= 0 && ranks.high < static_cast<double>(between.size())) {
+      const std::size_t gone = narrow(between, ranks);
+      return value_at_place(between, place - static_cast<double>(gone));
+    }
   }
   sample.clear();
   for (const float value : values) take(value);

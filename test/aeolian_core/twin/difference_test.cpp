@@ -92,6 +92,8 @@ TEST(Quantile, IsTheSameWithoutSortingALargeSample) {
   expect_same([&](std::size_t i) { return i % 3 == 0 ? NAN : scrambled(i); });
   expect_same([](std::size_t) { return 4.0; });
   expect_same([&](std::size_t i) { return i * 16384 % 200000 < 16384 ? 0.0 : scrambled(i); });
+  expect_same([](std::size_t i) { return static_cast<double>(i); });
+  expect_same([](std::size_t i) { return std::sin(0.001 * static_cast<double>(i)); });
 }
 
 /// Two surveys of 300 x 200 cells of 0.5 m, with errors of 3 and 4 cm, and what lies between them.
