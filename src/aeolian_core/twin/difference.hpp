@@ -34,8 +34,9 @@ HeightMap::Layer level_of_detection(const HeightMap::Layer& variance_a, const He
 
 /// `a - b` as layer `difference`, with layer `lod95` from their variances. A map without variances counts as
 /// exact (a prediction that states none); without any there is no lod95. The grid is that of `a`; throws
-/// Error when `b` has other numbers of cells or one of them lacks an elevation.
-HeightMap difference_map(const HeightMap& a, const HeightMap& b);
+/// Error when `b` has other numbers of cells or one of them lacks an elevation. `reused`: a map of
+/// differences that is no longer needed, whose memory serves for the new one.
+HeightMap difference_map(const HeightMap& a, const HeightMap& b, HeightMap reused = {});
 
 /// What moved beyond doubt: the cells whose |difference| exceeds a known lod95. The uncertainties of the
 /// volumes are those of independent errors of the cells (Lane et al. 2003); a shift of a whole map comes on

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -144,10 +145,10 @@ class Comparator : public Node {
                                           wind_direction(issued, header.stamp));
     comparison_publisher_.publish(to_message(comparison, header, issued));
 
-    HeightMap difference = difference_map(forecast, *measured.surface);
-    difference.add(layer::elevation, heights);
-    difference.add(layer::lead_time, forecast.layer(layer::lead_time));
-    difference_publisher_.publish(to_message(difference, measured.header));
+    difference_ = difference_map(forecast, *measured.surface, std::move(difference_));
+    difference_.add(layer::elevation, heights);
+    difference_.add(layer::lead_time, forecast.layer(layer::lead_time));
+    difference_publisher_.publish(to_message(difference_, measured.header));
     good("forecast",
          fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of {:.2f} against "
                      "persistence",
@@ -185,6 +186,7 @@ class Comparator : public Node {
   ros::Subscriber wind_subscriber_;
   ros::Subscriber forecast_subscriber_;
   std::unique_ptr<MapReceiver> receiver_;
+  HeightMap difference_;  ///< the last one
 };
 
 NodeDescription describe_comparator() {

@@ -27,13 +27,21 @@ MapPublisher::MapPublisher(ros::NodeHandle& node, const LiveMap& live, bool incr
 
 grid_map_msgs::GridMap MapPublisher::whole() const { return to_message(live_.map(), live_.header()); }
 
+const HeightMap& MapPublisher::as_told() {
+  const HeightMap& map = untold_ ? live_.map(*untold_) : live_.map();
+  untold_ = TileMask(map.geometry());
+  return map;
+}
+
 void MapPublisher::note(const TileMask& changed) {
   latched_ = false;
+  if (untold_) untold_->merge(changed);
   if (unseen_) changed_.merge(changed);
 }
 
 void MapPublisher::note_all() {
   latched_ = false;
+  untold_.reset();
   unseen_.reset();
 }
 
@@ -50,7 +58,7 @@ void MapPublisher::publish() {
 }
 
 void MapPublisher::publish_whole() {
-  whole_publisher_.publish(whole());
+  whole_publisher_.publish(to_message(as_told(), live_.header()));
   latched_ = true;
   whole_at_ = ros::WallTime::now();
 }

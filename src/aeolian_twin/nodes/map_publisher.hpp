@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <grid_map_msgs/GridMap.h>
 #include <ros/node_handle.h>
@@ -18,6 +19,9 @@ namespace aeolian {
 /// a single cell when none does. One who starts to listen on either topic gets the whole map; with updates,
 /// all get it again after ten seconds in which it has changed, so that nothing that was lost is missed for
 /// long. Nothing is made that nobody listens to.
+///
+/// Of a still tile that takes scans together (HeightFusion) a published map shows the first, until the tile
+/// tells again: what is shown of it is at most 1/64 of rate_time old.
 class MapPublisher {
  public:
   /// `live` must outlive the publisher.
@@ -32,6 +36,7 @@ class MapPublisher {
   void publish();
 
  private:
+  const HeightMap& as_told();
   grid_map_msgs::GridMap whole() const;
   void send_whole(const ros::SingleSubscriberPublisher& to) const;
   void publish_changes();
@@ -42,6 +47,7 @@ class MapPublisher {
   bool incremental_;
   bool latched_ = false;  ///< the last whole map that was published is the present one
   ros::WallTime whole_at_;
+  std::optional<TileMask> untold_;  ///< changed since the whole map was last published; nothing: all
   TileMask changed_;
   std::unique_ptr<UnseenChanges> unseen_;
   ros::Publisher whole_publisher_;

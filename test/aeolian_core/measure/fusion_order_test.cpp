@@ -156,6 +156,47 @@ TEST_F(FusionOrder, OfChunksAndReadingOfQuickScansOfABedThatRestsAndMoves) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(geometry.size())), 0.0004) << "1.2 mm have fallen";
 }
 
+/// A still bed of 2 x 2 tiles, seen at 10 Hz but for the last column of cells.
+class FusionOfAStillBed : public FusionOrder {
+ protected:
+  static constexpr double seen_to = 0.63;  // [m], of 0.64
+  static PointCloud scan_of(int k, double from, double to) {
+    RandomStream random(10, static_cast<std::uint64_t>(k));
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 4000; ++i)
+      points.emplace_back(from + (to - from) * random.uniform(), 0.64 * random.uniform(),
+                          0.0008 * random.normal());
+    return seen_from(pose(), points);
+  }
+  static FusionResult add(HeightFusion& to, int k) { return to.add(scan_of(k, 0, seen_to), pose(), 0.1 * k); }
+  HeightFusion fusion{GridGeometry(0, 0, 0.01, 64, 64), FusionParameters()};
+};
+
+TEST_F(FusionOfAStillBed, IsTheSameWheneverItWasRead) {
+  HeightFusion unread(GridGeometry(0, 0, 0.01, 64, 64), FusionParameters());
+  HeightFusion read_now_and_then(GridGeometry(0, 0, 0.01, 64, 64), FusionParameters());
+  const int last = 150;
+  for (int k = 0; k < last; ++k) {
+    add(unread, k);
+    add(read_now_and_then, k);
+    if (k % 13 == 0) read_now_and_then.map();
+    const FusionResult result = add(fusion, k);
+    if (k % 2 == 0) fusion.map(result.changed);
+    if (k < last - 15) continue;
+    expect_same_bits(fusion.map(), read_now_and_then.map());
+  }
+  expect_same_bits(fusion.map(), unread.map());
+}
+
+TEST_F(FusionOfAStillBed, ShowsNewCellsAtOnce) {
+  int k = 0;
+  while (add(fusion, k).changed.count() > 0 || k < 100) ++k;
+  const std::size_t known = count_known(fusion.map().layer(layer::elevation));
+  const FusionResult result = fusion.add(scan_of(k + 1, seen_to, 0.64), pose(), 0.1 * (k + 1));
+  EXPECT_EQ(result.changed.count(), 2);
+  EXPECT_EQ(count_known(fusion.map(result.changed).layer(layer::elevation)), known + 64);
+}
+
 TEST_F(FusionOrder, OfThreads) {
   HeightMap one;
   tbb::task_arena(1).execute([&] { one = whole(); });

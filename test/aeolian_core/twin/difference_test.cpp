@@ -92,6 +92,8 @@ TEST(Quantile, IsTheSameWithoutSortingALargeSample) {
   expect_same([&](std::size_t i) { return i % 3 == 0 ? NAN : scrambled(i); });
   expect_same([](std::size_t) { return 4.0; });
   expect_same([&](std::size_t i) { return i * 16384 % 200000 < 16384 ? 0.0 : scrambled(i); });
+  expect_same([](std::size_t i) { return static_cast<double>(i); });
+  expect_same([](std::size_t i) { return std::sin(0.001 * static_cast<double>(i)); });
 }
 
 /// Two surveys of 300 x 200 cells of 0.5 m, with errors of 3 and 4 cm, and what lies between them.
@@ -150,6 +152,21 @@ TEST_F(LevelOfDetection, TakesAMapWithoutVarianceAsExact) {
   EXPECT_FALSE(difference_map(forecast, measured).has(layer::lod95));
   EXPECT_THROW(significant_change(difference_map(forecast, measured)), Error);
   EXPECT_THROW(difference_map(measured, HeightMap(GridGeometry(0, 0, 0.5, 200, 300))), Error);
+}
+
+TEST_F(LevelOfDetection, IsTheSameInTheMemoryOfAnotherMap) {
+  const HeightMap forecast = survey(0.02, 1, level);
+  const HeightMap measured = survey(0.03, 2, level);
+  const HeightMap fresh = difference_map(forecast, measured);
+  HeightMap small(GridGeometry(0, 0, 1, 3, 2));
+  small.add(layer::difference, 7);
+  small.add(layer::elevation, 7);
+  for (const HeightMap& old : {small, difference_map(measured, survey(0.5, 3, level))}) {
+    const HeightMap again = difference_map(forecast, measured, old);
+    EXPECT_EQ(again.geometry(), fresh.geometry());
+    EXPECT_EQ(again.names(), fresh.names());
+    for (const std::string& name : fresh.names()) EXPECT_EQ(again.layer(name), fresh.layer(name)) << name;
+  }
 }
 
 }  // namespace
