@@ -15,7 +15,9 @@ class RunningProgram {
   RunningProgram(const std::string& name, std::vector<std::string> arguments)
       : child_(command(name, std::move(arguments))) {}
   ~RunningProgram() {
-    if (!killed_) EXPECT_TRUE(lives());
+    if (!killed_) {
+      EXPECT_TRUE(lives());
+    }
   }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;

@@ -20,7 +20,7 @@ constexpr double slack = 0.01;
 const double diagonal = std::sqrt(2.0);
 
 /// What two cells exchange whose difference of height is given, so that they come to rest.
-inline __attribute__((always_inline)) double slide(double difference, double straight, double share) {
+AEOLIAN_INLINE double slide(double difference, double straight, double share) {
   const double begin = straight * (1 + slack);
   const double rest = straight * (1 - slack);
   const double down = difference > begin ? difference - rest : 0;
@@ -28,7 +28,7 @@ inline __attribute__((always_inline)) double slide(double difference, double str
   return share * (down + up);
 }
 
-inline __attribute__((always_inline)) double size(double x) { return x < 0 ? -x : x; }
+AEOLIAN_INLINE double size(double x) { return x < 0 ? -x : x; }
 
 /// Whether any slope among two stations' rows 0 ... count is too steep; `ahead` of these rows have one more.
 AEOLIAN_KERNEL bool any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,

@@ -13,9 +13,8 @@ constexpr int most_taps = FrameField::pad;
 
 /// Moments of a row's values under the taps: sums of weight times 1, distance and its square.
 template <int taps>
-inline __attribute__((always_inline)) void sum_taps(std::ptrdiff_t count, const double* weight,
-                                                    const double* __restrict v, double* __restrict sum,
-                                                    double* __restrict first, double* __restrict second) {
+AEOLIAN_INLINE void sum_taps(std::ptrdiff_t count, const double* weight, const double* __restrict v,
+                             double* __restrict sum, double* __restrict first, double* __restrict second) {
   std::array<double, taps + 1> w{}, w1{}, w2{};
   for (int m = 0; m <= taps; ++m) {
     w[m] = weight[m];
@@ -40,9 +39,8 @@ inline __attribute__((always_inline)) void sum_taps(std::ptrdiff_t count, const 
 }
 
 template <int taps>
-inline __attribute__((always_inline)) void sum_taps_straight(std::ptrdiff_t count, const double* weight,
-                                                             const double* __restrict v,
-                                                             double* __restrict sum) {
+AEOLIAN_INLINE void sum_taps_straight(std::ptrdiff_t count, const double* weight, const double* __restrict v,
+                                      double* __restrict sum) {
   std::array<double, taps + 1> w{};
   for (int m = 0; m <= taps; ++m) w[m] = weight[m];
   for (std::ptrdiff_t i = 0; i < count; ++i) {

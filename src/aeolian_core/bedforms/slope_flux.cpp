@@ -21,10 +21,9 @@ struct Rows {
 };
 
 /// What flows into a cell; a face's activity is the sum of its two cells'.
-inline __attribute__((always_inline)) double divergence(const double* h, const double* h_before,
-                                                        const double* h_behind, const double* a,
-                                                        const double* a_before, const double* a_behind,
-                                                        std::ptrdiff_t i) {
+AEOLIAN_INLINE double divergence(const double* h, const double* h_before, const double* h_behind,
+                                 const double* a, const double* a_before, const double* a_behind,
+                                 std::ptrdiff_t i) {
   const double along =
       (a[i] + a_behind[i]) * (h_behind[i] - h[i]) - (a_before[i] + a[i]) * (h[i] - h_before[i]);
   const double across = (a[i] + a[i + 1]) * (h[i + 1] - h[i]) - (a[i - 1] + a[i]) * (h[i] - h[i - 1]);
@@ -60,9 +59,8 @@ AEOLIAN_KERNEL void add_stage(std::ptrdiff_t count, const Stage& given, Rows hei
 }
 
 /// What flows into a cell from another one, at most a quarter of what lies where it comes from.
-inline __attribute__((always_inline)) double inflow(double gain, double a, double a_other, double h,
-                                                    double h_other, double floor, double floor_other,
-                                                    double open, double open_other) {
+AEOLIAN_INLINE double inflow(double gain, double a, double a_other, double h, double h_other, double floor,
+                             double floor_other, double open, double open_other) {
   const double raw = gain * (a + a_other) * (h_other - h);
   const double mine = -0.25 * (h - floor);
   const double others = 0.25 * (h_other - floor_other);

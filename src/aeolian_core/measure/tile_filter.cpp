@@ -56,7 +56,7 @@ static_assert(offsetof(FilterCell, weight) == bytes_of_row && sizeof(FilterStep)
 
 /// Rows of eight numbers to the first eight columns.
 template <class Row, class Into>
-inline __attribute__((always_inline)) void to_columns(Row* const* rows, Into* into) {
+AEOLIAN_INLINE void to_columns(Row* const* rows, Into* into) {
   auto* const columns = reinterpret_cast<unsigned char*>(into);
   for (std::size_t first = 0; first < size; first += Transposition::side) {
     Transposition block;
@@ -67,7 +67,7 @@ inline __attribute__((always_inline)) void to_columns(Row* const* rows, Into* in
   }
 }
 
-inline __attribute__((always_inline)) void load(const CellBatch& batch, const PointScale& scale, Columns& c) {
+AEOLIAN_INLINE void load(const CellBatch& batch, const PointScale& scale, Columns& c) {
   to_columns(batch.cells.data(), &c);
   for (std::size_t i = 0; i < size; ++i) {
     c.information[i] = static_cast<float>(batch.cells[i]->weight * scale.information);
@@ -75,7 +75,7 @@ inline __attribute__((always_inline)) void load(const CellBatch& batch, const Po
   }
 }
 
-inline __attribute__((always_inline)) void store(const Columns& c, const CellBatch& batch) {
+AEOLIAN_INLINE void store(const Columns& c, const CellBatch& batch) {
   const auto* const columns = reinterpret_cast<const unsigned char*>(&c);
   for (std::size_t first = 0; first < size; first += Transposition::side) {
     Transposition block;

@@ -31,7 +31,7 @@ struct Field {
   double inverse_roughness;
   double gravity;
 
-  [[gnu::always_inline]] void accelerate(double y, double vx, double vy, double& ax, double& ay) const {
+  AEOLIAN_INLINE void accelerate(double y, double vx, double vy, double& ax, double& ay) const {
     const double height = std::min(std::max(y * inverse_roughness, 1.0), WindProfile::top);
     const double rx = vx - wind(height);
     const double rate = drag(std::min(std::max(rx * rx + vy * vy, Drag::least), Drag::most));
@@ -84,10 +84,10 @@ struct Parabola {
 
   bool has_apex(double duration) const { return vy0 > 0 && vy0 + bend * duration < 0; }
   double apex() const { return y0 - 0.5 * vy0 * vy0 / bend; }
-  [[gnu::always_inline]] double root(double y) const {
+  AEOLIAN_INLINE double root(double y) const {
     return std::sqrt(std::max(0.0, vy0 * vy0 + 2 * bend * (y - y0)));
   }
-  [[gnu::always_inline]] double vx(double time) const { return vx0 + time * (ax0 + time * turn); }
+  AEOLIAN_INLINE double vx(double time) const { return vx0 + time * (ax0 + time * turn); }
 };
 
 /// Adds weight x velocity along the wind where a path crosses `count` heights.

@@ -4,11 +4,13 @@
 #include <cstring>
 #include <vector>
 
+#include "aeolian_core/surface/kernel.hpp"
+
 namespace aeolian {
 
 /// Which of the 2^Bits pieces in each factor of two a number of one or more lies in, counted from one.
 template <int Bits>
-[[gnu::always_inline]] inline std::size_t octave_piece(double x) {
+AEOLIAN_INLINE std::size_t octave_piece(double x) {
   std::int64_t bits = 0;
   std::memcpy(&bits, &x, sizeof bits);
   return static_cast<std::size_t>((bits >> (52 - Bits)) - (std::int64_t{1023} << Bits));
@@ -48,7 +50,7 @@ class OctaveTable {
     const double* slope;
     std::int64_t base;
 
-    [[gnu::always_inline]] double operator()(double x) const {
+    AEOLIAN_INLINE double operator()(double x) const {
       std::int64_t bits = 0;
       std::memcpy(&bits, &x, sizeof bits);
       const std::int64_t i = (bits >> (52 - Bits)) - base;

@@ -7,3 +7,6 @@
 #else
 #define AEOLIAN_KERNEL
 #endif
+
+/// Marks what kernels call: it is compiled as part of each of their copies.
+#define AEOLIAN_INLINE [[gnu::always_inline]] inline

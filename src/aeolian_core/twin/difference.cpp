@@ -74,8 +74,6 @@ using Floats = float __attribute__((vector_size(width * sizeof(float))));
 using Doubles = double __attribute__((vector_size(width * sizeof(double))));
 using Ints = std::int32_t __attribute__((vector_size(width * sizeof(std::int32_t))));
 
-#define AEOLIAN_INLINE inline __attribute__((always_inline))
-
 /// Sums of a block, lane by lane.
 struct Partial {
   Doubles values[lanes / width] = {};

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "aeolian_core/surface/kernel.hpp"
+
 /// Four numbers that a processor treats at once; everything here is written for one number, too, so that a
 /// formula over `Real` is its own scalar twin.
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // all of it is inlined: no vector crosses a call
-
-#define AEOLIAN_INLINE [[gnu::always_inline]] inline
 
 namespace aeolian {
 
