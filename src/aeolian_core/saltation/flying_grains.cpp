@@ -19,11 +19,11 @@ std::vector<double> part(const std::vector<double>& all, std::size_t size, std::
 FlyingGrains::FlyingGrains(std::vector<Drag> drag, std::vector<double> mass, double rarest)
     : drag_(std::move(drag)), mass_(std::move(mass)), negligible_(negligible_part * rarest) {}
 
-void FlyingGrains::fly(const Launches& launches, const WindProfile& wind, double gravity, double tolerance,
-                       Landings& landings, std::vector<double>& stress) const {
+void FlyingGrains::fly(const Launches& launches, const WindProfile& wind, double acceleration,
+                       double tolerance, Landings& landings, std::vector<double>& stress) const {
   const std::size_t sizes = drag_.size();
   if (sizes == 1) {
-    aeolian::fly(launches, negligible_, {wind, drag_[0], gravity, tolerance}, landings, stress);
+    aeolian::fly(launches, negligible_, {wind, drag_[0], acceleration, tolerance}, landings, stress);
     return;
   }
   std::vector<double> own_stress;
@@ -31,7 +31,7 @@ void FlyingGrains::fly(const Launches& launches, const WindProfile& wind, double
     const Launches own = part_of(launches, s, sizes);
     Landings landed = part_of(landings, s, sizes);
     own_stress.assign(stress.size(), 0);
-    aeolian::fly(own, negligible_, {wind, drag_[s], gravity, tolerance}, landed, own_stress);
+    aeolian::fly(own, negligible_, {wind, drag_[s], acceleration, tolerance}, landed, own_stress);
     for (std::size_t i = 0; i < stress.size(); ++i) stress[i] += mass_[s] * own_stress[i];
     const auto first = static_cast<std::ptrdiff_t>(s * own.size());
     for (const auto column :

@@ -16,7 +16,7 @@ class FlyingGrains {
   FlyingGrains(std::vector<Drag> drag, std::vector<double> mass, double rarest);
 
   /// See aeolian::fly, with the stresses of all sizes together.
-  void fly(const Launches& launches, const WindProfile& wind, double gravity, double tolerance,
+  void fly(const Launches& launches, const WindProfile& wind, double acceleration, double tolerance,
            Landings& landings, std::vector<double>& stress) const;
   /// Classes below this part of all grains are not flown.
   double negligible() const { return negligible_; }
