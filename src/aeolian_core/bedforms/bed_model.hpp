@@ -27,7 +27,8 @@ struct Forcing {
 void check(const Forcing& forcing, double duration);
 
 /// The forcing of one saltation state.
-Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain, const MeanSplash& splash);
+Forcing make_forcing(const SaltationState& state, double direction, const Grain& grain,
+                     const MeanSplash& splash);
 
 /// The mean of several forcings (gusts) with the weight of each one's time: rates are averaged as they are,
 /// direction and impact angle by ejection rate, so that calm spells move nothing. Throws Error when empty or

@@ -1,11 +1,12 @@
 #include "aeolian_core/measure/local_quadratic.hpp"
-#include "aeolian_core/surface/median.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/Dense>
+
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {

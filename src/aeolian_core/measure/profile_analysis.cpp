@@ -11,8 +11,8 @@
 #include "aeolian_core/measure/profile_noise.hpp"
 #include "aeolian_core/measure/profile_ripples.hpp"
 #include "aeolian_core/measure/wave_train.hpp"
-#include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/surface/median.hpp"
+#include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 namespace {

@@ -1,11 +1,12 @@
 #include "aeolian_core/measure/shadow_terminus.hpp"
-#include "aeolian_core/surface/median.hpp"
-#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "aeolian_core/surface/golden_section.hpp"
+#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {

@@ -25,9 +25,9 @@ struct VirtualCamera {
   double sun_diameter = 0.0093;  ///< angular, for the penumbra [rad]
   double noise = 0.01;           ///< standard deviation of a pixel, of full scale
 
-  /// An 8-bit grey photograph (sRGB curve), row by row, of a bed under `light` (unit vector, the way the light travels,
-  /// downwards). The bed is grainy (albedo varies over `grain_diameter`), lit by its slope; the edge's shadow
-  /// has its penumbra.
+  /// An 8-bit grey photograph (sRGB curve), row by row, of a bed under `light` (unit vector, the way the
+  /// light travels, downwards). The bed is grainy (albedo varies over `grain_diameter`), lit by its slope;
+  /// the edge's shadow has its penumbra.
   std::vector<std::uint8_t> photograph(const HeightMap& bed, const Straightedge& edge,
                                        const Eigen::Vector3d& light, double grain_diameter,
                                        std::uint64_t seed) const;

@@ -1,5 +1,4 @@
 #include "aeolian_core/measure/wave_train.hpp"
-#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,8 @@
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "aeolian_core/surface/golden_section.hpp"
 
 namespace aeolian {
 namespace {

@@ -1,8 +1,9 @@
 #include "aeolian_core/twin/translation.hpp"
-#include "aeolian_core/surface/golden_section.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "aeolian_core/surface/golden_section.hpp"
 
 namespace aeolian {
 namespace {

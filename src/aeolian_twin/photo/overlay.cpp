@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "aeolian_core/surface/median.hpp"
 #include "aeolian_twin/photo/canvas.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
-#include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {

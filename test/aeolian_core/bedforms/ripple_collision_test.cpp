@@ -39,7 +39,8 @@ TEST(RippleCollisionTest, effective_height_dips_as_specified) {
   for (const Case& c : table) {
     EXPECT_NEAR(collide(c.ratio, EjectionLaw::target).least_effective_height(), c.target_least, 0.002)
         << c.ratio;
-    EXPECT_NEAR(collide(c.ratio, EjectionLaw::brink).least_effective_height(), c.brink_least, 0.002) << c.ratio;
+    EXPECT_NEAR(collide(c.ratio, EjectionLaw::brink).least_effective_height(), c.brink_least, 0.002)
+        << c.ratio;
   }
 }
 
