@@ -1,5 +1,6 @@
 #include "aeolian_core/bedforms/bed_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -26,6 +27,10 @@ double Forcing::erosion_rate() const {
 void check(const Forcing& forcing, double duration) {
   check(forcing.grain);
   require(std::isfinite(forcing.direction), "direction", forcing.direction, "finite");
+  require(forcing.friction_velocity >= 0 && std::isfinite(forcing.friction_velocity), "friction velocity",
+          forcing.friction_velocity, "zero or more and finite");
+  require(forcing.impact_angle_spread >= 0 && forcing.impact_angle_spread <= 1, "spread of impact angles",
+          forcing.impact_angle_spread, "0 to 1 rad");
   require(forcing.impact_angle >= 0.02 && forcing.impact_angle <= 1.4, "impact angle", forcing.impact_angle,
           "0.02 to 1.4 rad");
   require(forcing.ejection_rate >= 0 && std::isfinite(forcing.ejection_rate), "ejection rate",
@@ -39,7 +44,9 @@ Forcing make_forcing(const SaltationState& state, double direction, const Grain&
                      const MeanSplash& splash) {
   Forcing forcing;
   forcing.direction = direction;
+  forcing.friction_velocity = state.friction_velocity;
   forcing.impact_angle = state.impact_angle;
+  forcing.impact_angle_spread = state.impact_angle_spread;
   forcing.ejection_rate = state.impact_rate * splash.ejecta_per_impact(grain, state.impact_speed);
   forcing.reptation_length = splash.reptation_length(grain);
   forcing.grain = grain;
@@ -61,21 +68,29 @@ Forcing mean_forcing(const std::vector<Forcing>& forcings, const std::vector<dou
   double ejections = 0;
   double east = 0;
   double north = 0;
+  double friction = 0;
   double angle = 0;
+  double angle_square = 0;
   double length = 0;
   for (std::size_t i = 0; i < forcings.size(); ++i) {
     const double n = weights[i] * forcings[i].ejection_rate;
     ejections += n;
     east += n * std::cos(forcings[i].direction);
     north += n * std::sin(forcings[i].direction);
+    friction += n * forcings[i].friction_velocity;
     angle += n * forcings[i].impact_angle;
+    angle_square +=
+        n * (std::pow(forcings[i].impact_angle, 2) + std::pow(forcings[i].impact_angle_spread, 2));
     length += n * forcings[i].reptation_length;
   }
   Forcing mean = forcings.front();
   mean.ejection_rate = ejections / time;
   if (ejections > 0) {
     mean.direction = std::atan2(north, east);
+    mean.friction_velocity = friction / ejections;
     mean.impact_angle = angle / ejections;
+    mean.impact_angle_spread =
+        std::sqrt(std::max(0.0, angle_square / ejections - std::pow(mean.impact_angle, 2)));
     mean.reptation_length = length / ejections;
   }
   return mean;

@@ -12,10 +12,12 @@ namespace aeolian {
 
 /// What drives a bed: the rain of saltating grains and what each does, averaged over the time to be advanced.
 struct Forcing {
-  double direction = 0;         ///< where the wind blows to, counter-clockwise from east [rad]
-  double impact_angle = 0.17;   ///< below the horizontal [rad]
-  double ejection_rate = 0;     ///< grains set reptating per area and time on a flat bed [m^-2 s^-1]
-  double reptation_length = 0;  ///< mean [m]
+  double direction = 0;            ///< where the wind blows to, counter-clockwise from east [rad]
+  double friction_velocity = 0;    ///< that drives it [m/s]; laws of the ripples' size ask for it
+  double impact_angle = 0.17;      ///< mean, below the horizontal [rad]
+  double impact_angle_spread = 0;  ///< standard deviation of the impact angles [rad]
+  double ejection_rate = 0;        ///< grains set reptating per area and time on a flat bed [m^-2 s^-1]
+  double reptation_length = 0;     ///< mean [m]
   Grain grain;
 
   /// K0, the depth of bed set moving per time on a flat bed [m/s]: ejection rate times volume per grain.

@@ -19,6 +19,7 @@ struct SaltationState {
   double surface_friction_velocity = 0;  ///< u*_eff, that the wind has left for the bed [m/s]
   double hop_height = 0;                 ///< mean [m]
   double flight_time = 0;                ///< mean [s]
+  double impact_angle_spread = 0;        ///< standard deviation of the impact angles [rad]
   double apparent_roughness = 0;         ///< that the wind above the grains seems to have [m]
   /// @}
 };

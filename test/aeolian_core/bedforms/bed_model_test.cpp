@@ -38,6 +38,21 @@ TEST(MeanForcingTest, calm_spells_dilute_the_rate_but_do_not_turn_the_wind) {
   EXPECT_NEAR(mean.impact_angle, gust.impact_angle, 1e-12);
 }
 
+TEST(MeanForcingTest, gusts_of_different_angles_spread_the_angles) {
+  Forcing low = forcing_of(0.4);
+  low.impact_angle = 0.1;
+  low.impact_angle_spread = 0.03;
+  Forcing high = low;
+  high.impact_angle = 0.2;
+  const Forcing mean = mean_forcing({low, high}, {1, 1});
+  EXPECT_NEAR(mean.impact_angle, 0.15, 1e-12);
+  EXPECT_NEAR(mean.impact_angle_spread, std::hypot(0.03, 0.05), 1e-12);
+}
+
+TEST(MeanForcingTest, friction_velocity_is_that_of_the_spells_that_move_sand) {
+  EXPECT_NEAR(mean_forcing({forcing_of(0.5), forcing_of(0)}, {1, 3}).friction_velocity, 0.5, 1e-12);
+}
+
 TEST(MeanForcingTest, directions_are_averaged_across_the_cut) {
   const Forcing mean = mean_forcing({forcing_of(0.4, M_PI - 0.1), forcing_of(0.4, -M_PI + 0.1)}, {1, 1});
   EXPECT_NEAR(std::abs(mean.direction), M_PI, 1e-9);
@@ -67,6 +82,12 @@ TEST(CheckForcingTest, refuses_what_is_not_physical) {
   EXPECT_THROW(check(bad, 1), Error);
   bad = good;
   bad.impact_angle = 0;
+  EXPECT_THROW(check(bad, 1), Error);
+  bad = good;
+  bad.impact_angle_spread = -0.1;
+  EXPECT_THROW(check(bad, 1), Error);
+  bad = good;
+  bad.friction_velocity = nan;
   EXPECT_THROW(check(bad, 1), Error);
   bad = good;
   bad.ejection_rate = -1;
