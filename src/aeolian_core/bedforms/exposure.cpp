@@ -17,8 +17,8 @@ void sweep(const double* height, std::size_t count, double drop, double envelope
   }
 }
 
-}  // namespace
-
+/// The envelope M of a row, as it is met at the first cell of the row that follows downwind, with x counted
+/// from there.
 double envelope_after(const double* height, std::size_t count, double drop) {
   double envelope = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i)
@@ -26,10 +26,7 @@ double envelope_after(const double* height, std::size_t count, double drop) {
   return envelope - static_cast<double>(count) * drop;
 }
 
-void exposure_behind(const double* height, std::size_t count, double drop, double envelope,
-                     double* exposure) {
-  sweep(height, count, drop, envelope, exposure);
-}
+}  // namespace
 
 void exposure_periodic(const double* height, std::size_t count, double drop, double* exposure) {
   sweep(height, count, drop, envelope_after(height, count, drop), exposure);

@@ -17,9 +17,4 @@ void exposure_periodic(const double* height, std::size_t count, double drop, dou
 void exposure_open(const double* height, std::size_t count, double drop, double inflow_height,
                    double* exposure);
 
-/// The envelope M of a row, as it is met at the first cell of the row that follows downwind, with x counted
-/// from there; and a row swept behind such an envelope. `exposure_periodic` is a row behind itself.
-double envelope_after(const double* height, std::size_t count, double drop);
-void exposure_behind(const double* height, std::size_t count, double drop, double envelope, double* exposure);
-
 }  // namespace aeolian

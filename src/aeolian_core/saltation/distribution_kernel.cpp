@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "aeolian_core/surface/error.hpp"
 
@@ -75,9 +76,7 @@ std::vector<double> DistributionKernel::first_spectrum() const {
     const double v = (static_cast<double>(j) + 0.5) * width_;
     if (v >= slowest_) spectrum[j] = std::exp(-v / 0.5);
   }
-  const double sum = number(spectrum);
-  for (double& p : spectrum) p /= sum;
-  return spectrum;
+  return of_one_grain(std::move(spectrum));
 }
 
 void DistributionKernel::launch(const std::vector<double>& spectrum, Launches& launches) const {

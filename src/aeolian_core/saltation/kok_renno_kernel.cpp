@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "aeolian_core/surface/error.hpp"
 
@@ -120,9 +121,7 @@ std::vector<double> KokRennoKernel::first_spectrum() const {
   std::vector<double> spectrum(2 * bins_);
   for (std::size_t i = 0; i < bins_; ++i)
     spectrum[i] = spectrum[bins_ + i] = exponential_between(edge_[i], edge_[i + 1], 10 * scale_);
-  const double sum = number(spectrum);
-  for (double& p : spectrum) p /= sum;
-  return spectrum;
+  return of_one_grain(std::move(spectrum));
 }
 
 void KokRennoKernel::launch(const std::vector<double>& spectrum, Launches& launches) const {

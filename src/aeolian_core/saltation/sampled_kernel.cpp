@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "aeolian_core/surface/error.hpp"
 
@@ -98,9 +99,7 @@ std::vector<double> SampledKernel::first_spectrum() const {
   for (std::size_t k = 0; k < spectrum.size(); ++k)
     if (classes_.vx[k] > 0)
       spectrum[k] = std::exp(-std::hypot(classes_.vx[k], classes_.vy[k]) / (70 * slowest_));
-  const double sum = number(spectrum);
-  for (double& p : spectrum) p /= sum;
-  return spectrum;
+  return of_one_grain(std::move(spectrum));
 }
 
 void SampledKernel::launch(const std::vector<double>& spectrum, Launches& launches) const {

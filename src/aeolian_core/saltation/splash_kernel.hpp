@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "aeolian_core/saltation/flight.hpp"
@@ -34,6 +35,14 @@ class SplashKernel {
   /// Moves the fast end outwards by half and makes the spectrum one of the longer kind. False where
   /// velocities would become absurd.
   virtual bool extend(std::vector<double>& spectrum) = 0;
+
+ protected:
+  /// A spectrum of the same shape that is one grain in all.
+  std::vector<double> of_one_grain(std::vector<double> spectrum) const {
+    const double sum = number(spectrum);
+    for (double& p : spectrum) p /= sum;
+    return spectrum;
+  }
 };
 
 }  // namespace aeolian

@@ -20,12 +20,8 @@ std::optional<LeavingGrain> AndersonHaffRebound::sample(const Impact& impact, Ra
 
 void AndersonHaffEjection::sample(const Impact& impact, RandomStream& random,
                                   std::vector<LeavingGrain>& ejecta) const {
-  const BedView bed(impact);
   const int count = draw_poisson(mean_number(impact), random);
-  const double mean = 0.25 * std::pow(impact.speed, 0.3);
-  for (int i = 0; i < count; ++i)
-    ejecta.push_back(
-        ejected(bed, mean * draw_exponential(random), draw_elevation(mean_ejecta_elevation, random)));
+  eject(BedView(impact), count, 0.25 * std::pow(impact.speed, 0.3), random, ejecta);
 }
 
 }  // namespace aeolian

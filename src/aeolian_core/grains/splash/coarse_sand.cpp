@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "aeolian_core/grains/dynamics/unit_vector.hpp"
 #include "aeolian_core/grains/splash/bed_view.hpp"
+#include "aeolian_core/grains/splash/unit_vector.hpp"
 
 namespace aeolian {
 namespace {

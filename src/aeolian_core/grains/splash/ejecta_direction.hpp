@@ -12,6 +12,10 @@ double draw_elevation(double mean, RandomStream& random);
 /// A grain of the bed that leaves at this speed [m/s] and elevation [rad].
 LeavingGrain ejected(const BedView& bed, double speed, double elevation);
 
+/// Appends `count` grains of exponential speeds with this mean [m/s] and elevations of ejecta.
+void eject(const BedView& bed, int count, double mean_speed, RandomStream& random,
+           std::vector<LeavingGrain>& ejecta);
+
 constexpr double mean_rebound_elevation = 40 * M_PI / 180;
 constexpr double mean_ejecta_elevation = 50 * M_PI / 180;
 

@@ -33,12 +33,7 @@ double KokRennoEjection::mean_speed(double impact_speed) const {
 void KokRennoEjection::sample(const Impact& impact, RandomStream& random,
                               std::vector<LeavingGrain>& ejecta) const {
   const int count = draw_poisson(mean_number(impact), random);
-  if (count == 0) return;
-  const BedView bed(impact);
-  const double mean = mean_speed(impact.speed);
-  for (int i = 0; i < count; ++i)
-    ejecta.push_back(
-        ejected(bed, mean * draw_exponential(random), draw_elevation(mean_ejecta_elevation, random)));
+  if (count > 0) eject(BedView(impact), count, mean_speed(impact.speed), random, ejecta);
 }
 
 }  // namespace aeolian

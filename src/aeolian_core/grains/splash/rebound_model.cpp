@@ -5,8 +5,8 @@
 #include <limits>
 #include <sstream>
 
-#include "aeolian_core/grains/dynamics/unit_vector.hpp"
 #include "aeolian_core/grains/splash/bed_view.hpp"
+#include "aeolian_core/grains/splash/unit_vector.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
