@@ -11,11 +11,11 @@
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/splash/impact_picture.hpp"
-#include "aeolian_twin/splash/progress_bar.hpp"
 #include "aeolian_twin/splash/study_files.hpp"
 #include "aeolian_twin/splash/study_plots.hpp"
 #include "aeolian_twin/splash/study_table.hpp"
 #include "aeolian_twin/tools/program.hpp"
+#include "aeolian_twin/tools/progress_bar.hpp"
 
 namespace aeolian {
 namespace {
