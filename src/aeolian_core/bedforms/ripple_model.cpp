@@ -144,6 +144,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   if (floor) {
     frame.enter(*floor, ground.floor);
     frame.enter(*open, ground.open);
+    for (int i = 0; i < frame.stations(); ++i) ground.open.fill_mirrored_pads(i, periodic);
     ground.holes = std::find(open->begin(), open->end(), 0.0) != open->end();
   }
   ActivePatches active(frame.stations(), frame.rows());

@@ -280,6 +280,19 @@ TEST(RippleModelTest, unknown_cells_stay_unknown_and_the_known_stay_known) {
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(std::isfinite(before[i]), std::isfinite(h[i]));
 }
 
+TEST(RippleModelTest, holes_beside_a_border_swallow_nothing_however_long_the_hops) {
+  HeightMap map(GridGeometry(0, 0, 0.002, 40, 30));
+  HeightMap::Layer& height = map.add(layer::elevation, 0);
+  RandomStream random(1, 0);
+  for (float& h : height)
+    h = random.uniform() < 0.2 ? HeightMap::unknown : 0.001F * static_cast<float>(random.normal());
+  Forcing forcing = wind(0.4);
+  forcing.reptation_length = 0.05;  // spread by six cells across
+  const BedChange change = RippleModel(parameters(Border::open, 0.4, 1)).advance(map, forcing, 30);
+  EXPECT_GT(change.volume.moved, 0);
+  EXPECT_LT(std::abs(change.volume.error()), 1e-12);
+}
+
 TEST(RippleModelTest, a_map_of_which_nothing_is_known_is_left_alone) {
   HeightMap map(GridGeometry(0, 0, 0.002, 20, 20));
   map.add(layer::elevation);
