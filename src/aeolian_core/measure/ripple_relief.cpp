@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -13,8 +14,12 @@
 namespace aeolian {
 namespace {
 
-constexpr double across_share = 1.0 / 14;  ///< of a wavelength: widths of the kernels
+/// Widths of the kernels in wavelengths; across the crests as noise asks for.
+/// @{
+constexpr double least_across = 1.0 / 40;
+constexpr double most_across = 1.0 / 14;
 constexpr double along_share = 1.0 / 5;
+/// @}
 constexpr double least_width = 0.7;  ///< of a kernel [cells]
 
 /// A layer less its plane of best fit, unknown cells filled.
@@ -31,16 +36,45 @@ HeightMap::Layer levelled(const GridGeometry& g, const HeightMap::Layer& elevati
   return filled(g, level);
 }
 
-/// Smoothed by a Gaussian of many cells, on an image reduced to what it needs.
-cv::Mat smoothed_far(const cv::Mat& image, double width) {
-  const double reduction = std::max(1.0, width / 6);
-  cv::Mat small;
-  const cv::Size size(std::max(1, static_cast<int>(image.cols / reduction)),
-                      std::max(1, static_cast<int>(image.rows / reduction)));
+/// Rows of an image smoothed by local straight lines under a Gaussian, which keep a slope up to the border.
+cv::Mat_<float> smoothed_rows(const cv::Mat_<float>& image, double width) {
+  const int reach = static_cast<int>(std::ceil(3 * width));
+  cv::Mat_<float> result(image.size());
+  std::vector<float> weights;
+  for (int i = 0; i < image.cols; ++i) {
+    const int first = std::max(0, i - reach);
+    const int last = std::min(image.cols - 1, i + reach);
+    const auto gauss = [&](int j) { return std::exp(-0.5 * (j - i) * (j - i) / (width * width)); };
+    double sum = 0;
+    double moment = 0;
+    double second = 0;
+    for (int j = first; j <= last; ++j) {
+      sum += gauss(j);
+      moment += (j - i) * gauss(j);
+      second += (j - i) * (j - i) * gauss(j);
+    }
+    weights.clear();
+    for (int j = first; j <= last; ++j)
+      weights.push_back(static_cast<float>(
+          first == last ? 1 : gauss(j) * (second - moment * (j - i)) / (sum * second - moment * moment)));
+    for (int row = 0; row < image.rows; ++row)
+      result(row, i) = std::inner_product(weights.begin(), weights.end(), image[row] + first, 0.0F);
+  }
+  return result;
+}
+
+/// Smoothed over many cells, on an image reduced to what that needs.
+cv::Mat smoothed_far(const cv::Mat& image, double width_x, double width_y) {
+  const auto reduced = [](int cells, double width) {
+    return std::max(1, static_cast<int>(cells / std::max(1.0, width / 6)));
+  };
+  const cv::Size size(reduced(image.cols, width_x), reduced(image.rows, width_y));
+  cv::Mat_<float> small;
   cv::resize(image, small, size, 0, 0, cv::INTER_AREA);
-  const double sx = width * size.width / image.cols;
-  const double sy = width * size.height / image.rows;
-  cv::GaussianBlur(small, small, {}, sx, sy, cv::BORDER_REFLECT);
+  small = smoothed_rows(small, width_x * size.width / image.cols);
+  cv::transpose(small, small);
+  small = smoothed_rows(small, width_y * size.height / image.rows);
+  cv::transpose(small, small);
   cv::Mat result;
   cv::resize(small, result, image.size(), 0, 0, cv::INTER_CUBIC);
   return result;
@@ -112,6 +146,9 @@ std::optional<RippleRelief> ripple_relief(const GridGeometry& g, const HeightMap
   const double noise = cell_noise(g, elevation);
   if (known == 0) return std::nullopt;
   HeightMap::Layer level = levelled(g, elevation);
+  cv::Mat image(g.ny(), g.nx(), CV_32F, level.data());
+  // What is longer than waves that could be told is taken off first: its ends would be seen in every wave.
+  image -= smoothed_far(image, g.nx() / 8.0, g.ny() / 8.0);
   const auto pattern = find_pattern(g, level, direction, std::isfinite(noise) ? noise : 0);
   if (!pattern) return std::nullopt;
 
@@ -119,13 +156,15 @@ std::optional<RippleRelief> ripple_relief(const GridGeometry& g, const HeightMap
   relief.pattern = *pattern;
   lay_rows(g, relief);
   const double wavelength = pattern->wavelength / g.cell();
-  cv::Mat image(g.ny(), g.nx(), CV_32F, level.data());
-  image -= smoothed_far(image, wavelength);
+  image -= smoothed_far(image, wavelength, wavelength);
   cv::Mat seen(g.ny(), g.nx(), CV_32F);
   std::transform(elevation.begin(), elevation.end(), seen.begin<float>(),
                  [](float h) { return std::isfinite(h) ? 1.0F : 0.0F; });
 
-  const double across = std::max(least_width, across_share * wavelength);
+  const double deviation = cv::norm(image) / std::sqrt(static_cast<double>(g.size()));
+  const double noisiness = std::isfinite(noise) && deviation > 0 ? noise / deviation : 0;
+  const double across =
+      std::max(least_width, std::clamp(noisiness / 2, least_across, most_across) * wavelength);
   const double down = std::max(least_width, along_share * wavelength);
   const cv::Mat sharp = kernel(across, true);
   const cv::Mat wide = kernel(down, false);

@@ -13,8 +13,9 @@ namespace aeolian {
 /// crests, a sample per cell.
 ///
 /// The surface smoothed over a wavelength is taken off (specification sec. 9.25). Noise is smoothed with a
-/// Gaussian of a fifth of a wavelength along the crests, and across them with the kernel of fourth order of a
-/// fourteenth, which leaves a sinusoid 99.5 % of its height.
+/// Gaussian of a fifth of a wavelength along the crests, and across them with a kernel of fourth order (which
+/// leaves parabolas as they are) of a fortieth to a fourteenth, as noise asks for: sinusoids lose less than
+/// 0.5 % of their height.
 struct RippleRelief {
   RipplePattern pattern;
   double cell = 0;         ///< between samples and between rows [m]
