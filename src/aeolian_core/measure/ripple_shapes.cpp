@@ -92,4 +92,19 @@ RippleField ripple_field(const RippleCrests& found) {
   return field;
 }
 
+std::optional<double> likely_wind(const GridGeometry& g, const HeightMap::Layer& elevation) {
+  std::optional<double> best;
+  double longest = 0;
+  // Three directions, as each sees crests that are within 60 degrees of square to it.
+  for (const double direction : {0.0, M_PI / 3, 2 * M_PI / 3}) {
+    const RippleCrests found = find_crests(g, elevation, direction);
+    const RippleField field = ripple_field(found);
+    const double length = field.crests > 0 ? field.crests * field.crest_length * field.concentration : 0;
+    if (!(length > longest)) continue;
+    longest = length;
+    best = std::remainder(found.relief.pattern.normal + (field.asymmetry.value < 1 ? M_PI : 0), 2 * M_PI);
+  }
+  return best;
+}
+
 }  // namespace aeolian

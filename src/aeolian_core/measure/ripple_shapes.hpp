@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "aeolian_core/measure/ripple_crests.hpp"
 #include "aeolian_core/measure/shadow_profile.hpp"
 
@@ -27,5 +29,9 @@ struct RippleField {
 };
 
 RippleField ripple_field(const RippleCrests& crests);
+
+/// Where the wind that made the ripples of a map blew to, as far as their shape tells: square to the pattern
+/// of the longest crests, with the steeper flanks downwind [rad]. Nothing for a map without ripples.
+std::optional<double> likely_wind(const GridGeometry& geometry, const HeightMap::Layer& elevation);
 
 }  // namespace aeolian
