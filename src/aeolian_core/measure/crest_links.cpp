@@ -83,7 +83,8 @@ std::vector<std::vector<RowPlace>> join_facing(const std::vector<std::vector<Row
     const RowPlace start = lines[b].front();
     // A line that begins beside the other's middle is a neighbour.
     if (a == b || start.row <= lines[a].front().row || end.row >= lines[b].back().row) return distance;
-    return std::hypot(x(end) - x(start), end.row - start.row);
+    // Sideways counts twice: what goes on beside an end is another crest.
+    return std::hypot(2 * (x(end) - x(start)), end.row - start.row);
   };
   std::vector<std::size_t> next(lines.size(), nobody);
   std::vector<std::size_t> before(lines.size(), nobody);

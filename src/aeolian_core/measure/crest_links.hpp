@@ -19,7 +19,8 @@ std::vector<std::vector<RowPlace>> link_rows(const std::vector<std::vector<RowCr
                                              double wavelength, int gap);
 
 /// Joins lines that face each other: one's last crest and another's first that are nearest to each other and
-/// less than `distance` apart [samples]. Where they overlap the first goes on to its end.
+/// less than `distance` apart [samples], sideways half of that. Where they overlap the first goes on to its
+/// end.
 std::vector<std::vector<RowPlace>> join_facing(const std::vector<std::vector<RowCrest>>& rows,
                                                const std::vector<std::vector<RowPlace>>& lines,
                                                double distance);

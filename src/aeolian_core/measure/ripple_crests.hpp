@@ -59,9 +59,9 @@ struct RippleCrests {
 /// A crest counts where both its flanks fall by more than four standard deviations of the noise (as
 /// smoothed), a twelfth of the typical relief and half a grain diameter [m], and on half of its length by
 /// half as much again; shorter ones than half a wavelength do not. Gaps of up to 0.4 wavelengths are bridged,
-/// and ends that face each other within half a wavelength. Crests may turn from the pattern by up to 60
-/// degrees, the pattern from `direction` by as much. Where the map ends or has a hole within 0.6 wavelengths
-/// the end of a crest is not taken for a defect. Throws Error as ripple_relief does.
+/// and ends that face each other within half a wavelength (sideways a quarter). Crests may turn from the
+/// pattern by up to 60 degrees, the pattern from `direction` by as much. Where the map ends or has a hole
+/// within 0.6 wavelengths the end of a crest is not taken for a defect. Throws Error as ripple_relief does.
 RippleCrests find_crests(const GridGeometry& geometry, const HeightMap::Layer& elevation, double direction,
                          double grain_diameter = 0);
 

@@ -31,8 +31,8 @@ constexpr const char* description =
     track_ripples --out DIR map_000.tif map_060.tif ... [--times S,S,...] [--direction-deg D | --from-deg D]
 
 Times are seconds: --times, or the column t_s of --times-csv, or the last number in each file's name. One map alone has no
-motion. Without a direction of the wind it is taken from the shape of the ripples on the last map: square to the crests,
-steep flanks downwind.
+motion. Without a direction of the wind it is taken from the ripples on the last map: square to the crests, the way they
+go, or where there is one map the way their steeper flanks face.
 
 Written to DIR: ripples.csv (what each map says), crests.csv and crest_lines.csv (each crest), events.csv (mergers, splits,
 repulsions, births, losses, ends of crests that move along), tracks.svg (crests in time along the wind) and for each map a
@@ -92,8 +92,6 @@ double direction_of(const Options& options) {
     throw Error("'" + options.maps.back() +
                 "': no ripples that stand out of its noise; give the wind with "
                 "--direction-deg or --from-deg");
-  fmt::print("wind to {:.0f} deg (from {:.0f} deg), as the ripples' shape tells\n",
-             radians_to_degrees(*direction), meteorological_from_direction(*direction));
   return *direction;
 }
 
@@ -163,8 +161,16 @@ int run(int argc, char** argv) {
   if (const auto code = parse(app, argc, argv)) return *code;
 
   const std::vector<double> when = times_of(options);
-  const double direction = direction_of(options);
-  const RippleHistory history = follow(options, direction, when);
+  double direction = direction_of(options);
+  RippleHistory history = follow(options, direction, when);
+  if (!options.direction_deg && !options.from_deg) {
+    if (history.celerity.value < 0) {  // ripples go with the wind, whatever their flanks look like
+      direction = wrap_angle(direction + M_PI);
+      history = follow(options, direction, when);
+    }
+    fmt::print("wind to {:.0f} deg (from {:.0f} deg), as the ripples tell\n", radians_to_degrees(direction),
+               meteorological_from_direction(direction));
+  }
   if (std::all_of(history.maps.begin(), history.maps.end(),
                   [](const TrackedMap& map) { return map.field.crests == 0; }))
     throw Error("no map has ripples that stand out of its noise");

@@ -29,7 +29,7 @@ std::string told(const RippleHistory& history) {
 }
 
 class TravelDirection : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(RippleTracker, TravelDirection, testing::Values(0.0, 17.0, 30.0, 45.0, -120.0));
+INSTANTIATE_TEST_SUITE_P(RippleTracker, TravelDirection, testing::Values(0.0, 17.0, 30.0, 45.0));
 
 // A third of a cell a step with noise of a tenth of the height, four with a quarter; holes. The wind blows 10
 // degrees off.
@@ -38,7 +38,7 @@ TEST_P(TravelDirection, trains_have_their_speed) {
     Train t;
     t.direction = GetParam() * degree;
     RippleTracker tracker(t.direction + 10 * degree);
-    for (int m = 0; m < 8; ++m) {
+    for (int m = 0; m < 6; ++m) {
       t.phase = 2 * M_PI / t.wavelength * way * m;
       HeightMap::Layer layer = laid_out(plot, t);
       add_noise(layer, (way < plot.cell() ? 0.1 : 0.25) * t.height, static_cast<std::uint64_t>(m));
@@ -47,7 +47,7 @@ TEST_P(TravelDirection, trains_have_their_speed) {
     }
     const RippleHistory history = tracker.history();
     EXPECT_NEAR(history.celerity.value, way / 60, 0.02 * way / 60);
-    EXPECT_EQ(history.maps.size(), 8U);
+    EXPECT_EQ(history.maps.size(), 6U);
     EXPECT_TRUE(history.events.empty()) << told(history);
     std::set<int> ids;
     for (const TrackedMap& map : history.maps)
