@@ -44,7 +44,7 @@ void tracking_rows(AccuracyTable& table) {
       "Height-map model, 0.3 mm sand, friction velocity 0.7 m/s (the field's wind while its ripples grew), "
       "30 min "
       "from a flat bed that is rough by half a grain, 0.8 m x 0.4 m of 2 mm, a map every 20 s; what "
-      "`RippleTracker` finds in the maps alone. Repulsions are rare in the model, which has no chance in it: "
+      "`RippleTracker` finds in the maps alone. Repulsions are rare in the model, which is deterministic: "
       "none in "
       "30 min of 0.4 mm sand at 0.45 m/s. Shapes are medians over all crests of the last map; slopes are the "
       "steepest over a tenth of a wavelength, as in the thesis' table 5.1.");
