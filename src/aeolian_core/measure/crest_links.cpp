@@ -44,8 +44,10 @@ std::vector<std::vector<RowPlace>> link_rows(const std::vector<std::vector<RowCr
     std::sort(open.begin(), open.end(),
               [&](const OpenLine& a, const OpenLine& b) { return a.expected(row) < b.expected(row); });
     std::vector<double> expected;
+    expected.reserve(open.size());
     for (const OpenLine& line : open) expected.push_back(line.expected(row));
     std::vector<double> places;
+    places.reserve(crests.size());
     for (const RowCrest& crest : crests) places.push_back(static_cast<double>(crest.place));
 
     for (std::size_t c = 0; c < crests.size(); ++c) {

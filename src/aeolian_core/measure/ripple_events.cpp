@@ -156,7 +156,9 @@ std::vector<RowEvent> find_repulsions(const std::vector<CrestTrack>& tracks,
   }
 
   std::vector<RowEvent> events;
-  for (const auto& [pair, maps] : neighbours) {
+  for (const auto& meeting : neighbours) {
+    const auto& pair = meeting.first;
+    const std::vector<std::size_t>& maps = meeting.second;
     const auto crest_at = [&](std::size_t track, std::size_t f) {
       return frames[f].crests[static_cast<std::size_t>(tracks[track].crests[f - tracks[track].first])];
     };

@@ -139,18 +139,19 @@ std::vector<TrackRow> RippleTracker::cut(const RippleCrests& found) const {
       const double from = (points[i - 1] - first).dot(left) / row_spacing_;
       const double to = (points[i] - first).dot(left) / row_spacing_;
       if (!(to > from)) continue;  // nearly along the rows
-      for (double row = std::max(0.0, std::ceil(from)); row < to && row < static_cast<double>(row_count_);
-           ++row) {
-        const double part = (row - from) / (to - from);
+      const auto last =
+          static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(row_count_)));
+      for (auto row = static_cast<std::size_t>(std::max(0.0, std::ceil(from))); row < last; ++row) {
+        const double part = (static_cast<double>(row) - from) / (to - from);
         const double place = (points[i - 1] + part * (points[i] - points[i - 1]) - first).dot(along);
-        rows[static_cast<std::size_t>(row)].samples.push_back(
-            {place, static_cast<int>(c), part < 0.5 ? i - 1 : i});
+        rows[row].samples.push_back({place, static_cast<int>(c), part < 0.5 ? i - 1 : i});
       }
     }
   }
-  const double reach = 0.5 * (geometry_.length_x() + geometry_.length_y());
+  const int reach = static_cast<int>(0.5 * (geometry_.length_x() + geometry_.length_y()) / row_spacing_);
   std::vector<double> places;
-  for (double place = -reach; place <= reach; place += row_spacing_) places.push_back(place);
+  places.reserve(static_cast<std::size_t>(2 * reach + 1));
+  for (int i = -reach; i <= reach; ++i) places.push_back(i * row_spacing_);
   std::vector<bool> seen(places.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::sort(rows[r].samples.begin(), rows[r].samples.end(),
