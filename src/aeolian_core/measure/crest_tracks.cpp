@@ -10,30 +10,29 @@ namespace {
 
 using Event = ProfileSeries::Event;
 
-/// One crest over the frames in which it is seen.
+/// A crest that is followed.
 struct Track {
-  std::size_t first;      ///< frame in which it appears
-  std::size_t last;       ///< frame in which it is seen last
+  CrestTrack seen;
   double first_position;  ///< [m]
-  double last_position;   ///< [m], carried with the pattern while it is not seen
+  double last_position;   ///< where it was seen last [m]
 };
 
 class CrestFollower {
  public:
   explicit CrestFollower(const std::vector<CrestFrame>& frames) : frames_(frames) {}
 
-  std::vector<Event> events() {
+  std::vector<CrestTrack> tracks() {
     for (std::size_t frame = 0; frame < frames_.size(); ++frame) follow(frame);
-    std::vector<Event> events;
-    for (const Track& track : tracks_) {
-      const bool glimpse = track.first == track.last && track.first > 0 && track.last + 1 < frames_.size();
+    std::vector<CrestTrack> result;
+    for (Track& track : tracks_) {
+      const bool glimpse =
+          track.seen.crests.size() == 1 && track.seen.first > 0 && track.seen.last() + 1 < frames_.size();
       if (glimpse) continue;
-      if (const auto event = beginning(track)) events.push_back(*event);
-      if (const auto event = ending(track)) events.push_back(*event);
+      track.seen.beginning = beginning(track);
+      track.seen.ending = ending(track);
+      result.push_back(std::move(track.seen));
     }
-    std::stable_sort(events.begin(), events.end(),
-                     [](const Event& a, const Event& b) { return a.time < b.time; });
-    return events;
+    return result;
   }
 
  private:
@@ -43,7 +42,7 @@ class CrestFollower {
     std::vector<std::size_t> live;
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       // A crest missed once may come back.
-      if (tracks_[t].last + 2 < frame) continue;
+      if (tracks_[t].seen.last() + 2 < frame) continue;
       where_[t] += now.shift;
       live.push_back(t);
     }
@@ -56,10 +55,12 @@ class CrestFollower {
       const bool mutual = nearest && nearest_of(now.crests, expected[*nearest]) == c;
       if (mutual && std::abs(expected[*nearest] - at) < 0.5 * now.wavelength) {
         const std::size_t t = live[*nearest];
-        tracks_[t].last = frame;
+        std::vector<int>& crests = tracks_[t].seen.crests;
+        crests.resize(frame - tracks_[t].seen.first, -1);
+        crests.push_back(static_cast<int>(c));
         tracks_[t].last_position = where_[t] = at;
       } else {
-        tracks_.push_back({frame, frame, at, at});
+        tracks_.push_back({{frame, {static_cast<int>(c)}, {}, {}}, at, at});
         where_.push_back(at);
       }
     }
@@ -92,19 +93,23 @@ class CrestFollower {
     if (const auto other = neighbour(frame, at)) return Event{joined, time, *other};
     const double margin = 0.5 * frame.wavelength;
     if (at < frame.start + margin || at > frame.end - margin) return std::nullopt;
+    for (const auto& [from, to] : frame.holes)
+      if (at > from - margin && at < to + margin) return std::nullopt;
     return Event{alone, time, at};
   }
 
   std::optional<Event> beginning(const Track& track) const {
-    if (track.first == 0) return std::nullopt;
-    return change(track.first, track.first - 1, track.first_position - frames_[track.first].shift,
-                  Event::Kind::split, Event::Kind::birth);
+    const std::size_t first = track.seen.first;
+    if (first == 0) return std::nullopt;
+    return change(first, first - 1, track.first_position - frames_[first].shift, Event::Kind::split,
+                  Event::Kind::birth);
   }
 
   std::optional<Event> ending(const Track& track) const {
-    if (track.last + 1 == frames_.size()) return std::nullopt;
-    return change(track.last, track.last + 1, track.last_position + frames_[track.last + 1].shift,
-                  Event::Kind::merger, Event::Kind::loss);
+    const std::size_t last = track.seen.last();
+    if (last + 1 == frames_.size()) return std::nullopt;
+    return change(last, last + 1, track.last_position + frames_[last + 1].shift, Event::Kind::merger,
+                  Event::Kind::loss);
   }
 
   const std::vector<CrestFrame>& frames_;
@@ -114,8 +119,19 @@ class CrestFollower {
 
 }  // namespace
 
+std::vector<CrestTrack> follow_crests(const std::vector<CrestFrame>& frames) {
+  return CrestFollower(frames).tracks();
+}
+
 std::vector<ProfileSeries::Event> crest_events(const std::vector<CrestFrame>& frames) {
-  return CrestFollower(frames).events();
+  std::vector<Event> events;
+  for (const CrestTrack& track : follow_crests(frames)) {
+    if (track.beginning) events.push_back(*track.beginning);
+    if (track.ending) events.push_back(*track.ending);
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  return events;
 }
 
 }  // namespace aeolian

@@ -9,6 +9,11 @@
 /// camera over a straightedge's shadow, anemometer) stand beside: a virtual field day is made with them. The
 /// shadow geometry follows Werner (1987), ch. V.
 ///
+/// The ripples of a map one by one: `ripple_pattern` (how long, which way) -> `ripple_relief` (rows square to
+/// the crests, without bed and noise) -> `crest_rows` -> `crest_links` -> `ripple_crests` (lines and their
+/// ends)
+/// -> `ripple_shapes` (figures of the map); over time `ripple_tracking`.
+///
 /// A cloud whose pose is somewhat wrong is laid onto the map by `registration` (against `map_surface`, by
 /// `point_to_plane`); `bed_frame` finds the frame whose z is the bed's normal.
 ///
@@ -24,6 +29,7 @@
 #include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/measure/ripple_statistics.hpp"
+#include "aeolian_core/measure/ripple_tracking.hpp"
 #include "aeolian_core/measure/shadow_profile.hpp"
 #include "aeolian_core/measure/virtual_anemometer.hpp"
 #include "aeolian_core/measure/virtual_camera.hpp"

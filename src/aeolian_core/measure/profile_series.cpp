@@ -142,8 +142,13 @@ std::vector<CrestFrame> crest_frames(const std::vector<ProfileAnalysis>& analyse
   std::vector<CrestFrame> frames;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     const EvenProfile& even = analyses[i].even;
-    frames.push_back({analyses[i].crests, times[i] - times[0], shifts[i] ? shifts[i]->shift.value : 0,
-                      pattern_length(analyses[i]), even.start, even.start + length_of(even)});
+    frames.push_back({analyses[i].crests,
+                      times[i] - times[0],
+                      shifts[i] ? shifts[i]->shift.value : 0,
+                      pattern_length(analyses[i]),
+                      even.start,
+                      even.start + length_of(even),
+                      {}});
   }
   return frames;
 }
