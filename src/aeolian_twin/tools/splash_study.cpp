@@ -135,8 +135,7 @@ int run(int argc, char** argv) {
   if (impacts_option->count() > 0) study.impacts = impacts;
   study.filmed = std::min(study.filmed, study.impacts - 1);
   study.seed = seed;
-  std::string command = "rosrun aeolian_twin splash_study";
-  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  const std::string command = typed_command("splash_study", argc, argv);
   std::signal(SIGINT, [](int) { stop = true; });
   std::signal(SIGTERM, [](int) { stop = true; });
   return study.dimensions == 2 ? run_study<2>(study, command, out) : run_study<3>(study, command, out);
