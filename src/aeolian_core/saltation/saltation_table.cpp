@@ -10,6 +10,7 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
+constexpr double kept_tolerance = 1e-4;  ///< what is kept has time to be solved well
 
 void require_ascending(const char* what, const std::vector<double>& values, double least) {
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -106,7 +107,7 @@ SaltationTable SaltationTable::build(const SaltatingBed& bed, const Kernels& ker
   const auto solver_of = [&](double diameter) {
     SaltatingBed one = bed;
     one.grain.diameter = diameter;
-    return SaltationSolver(one, *kernels(one));
+    return SaltationSolver(one, *kernels(one), {kept_tolerance});
   };
   for (const double diameter : diameters) {
     const SaltationSolver solver = solver_of(diameter);
