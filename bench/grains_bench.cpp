@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 
+#include "grains_convergence.hpp"
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -20,34 +20,10 @@
 namespace aeolian {
 namespace {
 
-constexpr double radius = 0.01;
-
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 double processor_time_of_children() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
   return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
-double bed_width(int columns) { return 2.02 * (columns + 0.5) * radius; }
-
-/// A dense bed of discs at rest, of sizes that differ by 3 %.
-GrainDynamics<2> settled_bed(int columns, int rows, double time) {
-  GrainWorld<2> world;
-  const double width = bed_width(columns);
-  world.walls = {{{-1, 0}, {1 + width, 0}}, {{0, 0}, {0, 9}}, {{width, 0}, {width, 9}}};
-  world.drag = 100;
-  GrainDynamics<2> grains(world);
-  RandomStream random(5, 0);
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i)
-      grains.add({(2.02 * i + 1.01 * (1 + j % 2)) * radius, (1.74 * j + 1) * radius},
-                 radius * (1 - 0.03 * random.uniform()));
-  grains.advance(time);
-  world.drag = 0;
-  grains.set_world(world);
-  return grains;
 }
 
 const GrainDynamics<2>& bed_of_3000() {
@@ -117,7 +93,7 @@ void dense_spheres(benchmark::State& state) {
   for (int i = 0; i < 12 * 12 * 15; ++i)
     grains.add({0.02 * (i % 12 + 0.45 + 0.1 * random.uniform()),
                 0.02 * (i / 12 % 12 + 0.45 + 0.1 * random.uniform()), 0.02 * (i / 144) + 0.01},
-               radius * (1 - 0.05 * random.uniform()));
+               disc_radius * (1 - 0.05 * random.uniform()));
   grains.advance(0.1);
   count_grain_steps(state, grains, 100);
   state.counters["contacts_per_grain"] =
@@ -241,7 +217,7 @@ void impact(benchmark::State& state) {
     GrainDynamics<2> grains = bed;
     const std::size_t before = grains.grain_steps();
     const double angle = 15 * M_PI / 180;
-    const int grain = grains.add({bed_width(125) / 2, top + 2.5 * radius}, radius,
+    const int grain = grains.add({bed_width(125) / 2, top + 2.5 * disc_radius}, disc_radius,
                                  10 * Vector<2>(std::cos(angle), -std::sin(angle)));
     grains.advance(0.07);
     rebound = grains.velocity(grain);
@@ -253,63 +229,33 @@ void impact(benchmark::State& state) {
 }
 BENCHMARK(impact)->Arg(0)->Arg(30)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-/// Error of the restitution of table 2.1 over the steps in a contact, as a root mean square over when within
-/// a step the contact begins.
-void error_of_step(benchmark::State& state) {
-  GrainWorld<2> world;
-  world.law.stiffness = world.law.shear_stiffness = 5e4;
-  world.law.damping = world.law.shear_damping = 1000;
-  world.acceleration.setZero();
-  world.steps_per_contact = static_cast<double>(state.range(0));
-  double squares = 0;
-  const int starts = 32;
-  for (auto _ : state) {
-    squares = 0;
-    for (int k = 0; k < starts; ++k) {
-      GrainDynamics<2> grains(world);
-      grains.add({0, 0}, radius, {1, 0});
-      grains.add({2 * radius + 1e-4 * (1 + 0.7 * k / starts), 0}, radius);
-      const double exact = restitution(5e4, 1000, grains.mass(0) / 2);
-      grains.advance(1.1e-3);
-      squares += std::pow((grains.velocity(1) - grains.velocity(0)).x() / exact - 1, 2);
-    }
-  }
-  state.counters["error"] = std::sqrt(squares / starts);
+/// Over the steps in a contact.
+void restitution_of_step(benchmark::State& state) {
+  StepError error;
+  for (auto _ : state) error = error_of_step(static_cast<double>(state.range(0)));
+  state.counters["error"] = error.root_mean_square;
+  state.counters["median_error"] = error.median;
 }
-BENCHMARK(error_of_step)->Arg(9)->Arg(18)->Arg(36)->Arg(72)->Arg(144)->Arg(288)->Arg(1152);
+BENCHMARK(restitution_of_step)
+    ->Arg(9)
+    ->Arg(18)
+    ->Arg(36)
+    ->Arg(72)
+    ->Arg(144)
+    ->Arg(288)
+    ->Arg(1152)
+    ->Unit(benchmark::kMillisecond);
 
-/// What softer grains change: mean rebound of 40 impacts of 30 m/s at 15 degrees, over the stiffness [N/m].
-void rebound_of_stiffness(benchmark::State& state) {
-  const int columns = 30, impacts = 40;
-  GrainDynamics<2> bed = settled_bed(columns, 8, 0.12);
-  GrainWorld<2> world = bed.world();
-  world.law = ContactLaw::spring(static_cast<double>(state.range(0)), 0.85, bed.mass(0) / 2, 0.5);
-  world.drag = 100;
-  bed.set_world(world);
-  bed.advance(0.05);
-  world.drag = 0;
-  bed.set_world(world);
-  double top = 0;
-  for (const int grain : bed.numbers()) top = std::max(top, bed.position(grain).y());
-  const double angle = 15 * M_PI / 180;
-  double along = 0, squares = 0, up = 0;
-  for (auto _ : state)
-    for (int k = 0; k < impacts; ++k) {
-      GrainDynamics<2> grains = bed;
-      const double place = bed_width(columns) / 2 - 0.05 + 0.1 * k / impacts;
-      const int grain =
-          grains.add({place, top + 2.1 * radius}, radius, 30 * Vector<2>(std::cos(angle), -std::sin(angle)));
-      grains.advance(0.005);
-      const Vector<2> out = grains.velocity(grain) / 30;
-      along += out.x() / std::cos(angle) / impacts;
-      up += out.y() / std::sin(angle) / impacts;
-      squares += std::pow(out.x() / std::cos(angle), 2) / impacts;
-    }
-  state.counters["restitution_x"] = along;
-  state.counters["error_of_mean_x"] = std::sqrt((squares - along * along) / impacts);
-  state.counters["restitution_y"] = up;
+/// Over the stiffness [N/m].
+void rebound(benchmark::State& state) {
+  Rebound mean;
+  for (auto _ : state) mean = rebound_of_stiffness(static_cast<double>(state.range(0)), 40);
+  state.counters["restitution_x"] = mean.along;
+  state.counters["error_of_mean_x"] = mean.along_error;
+  state.counters["restitution_y"] = mean.up;
+  state.counters["error_of_mean_y"] = mean.up_error;
 }
-BENCHMARK(rebound_of_stiffness)
+BENCHMARK(rebound)
     ->Arg(60000)
     ->Arg(600000)
     ->Arg(6000000)

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "../test/aeolian_core/saltation/thesis_bed.hpp"
 #include <benchmark/benchmark.h>
 
 #include "aeolian_core/grains/splash/composed_splash.hpp"
 #include "aeolian_core/grains/splash/kok_renno.hpp"
-#include "aeolian_core/saltation/distribution_kernel.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/literal_iteration.hpp"
 #include "aeolian_core/saltation/saltation_table.hpp"
@@ -17,14 +17,6 @@
 
 namespace aeolian {
 namespace {
-
-SaltatingBed thesis_bed() {
-  SaltatingBed bed;
-  bed.grain.density = 2600;
-  bed.atmosphere = {1.23, 1.46e-5, 9.81};
-  bed.drag_law = DragLaw::sphere;
-  return bed;
-}
 
 /// Sixty flights of one iteration; beside it the drag law as printed, of which a step without tables would
 /// need three.
@@ -69,8 +61,7 @@ void report(benchmark::State& state, const SteadyState& s, double bar_millisecon
 
 /// Eq. 4.34; arguments: case, u* [cm/s].
 void vertical(benchmark::State& state) {
-  const SaltationSolver solver(
-      thesis_bed(), DistributionKernel(DistributionSplash::thesis_case(static_cast<int>(state.range(0)))));
+  const SaltationSolver solver(thesis_bed(), thesis_splash(static_cast<int>(state.range(0))));
   const double u = static_cast<double>(state.range(1)) / 100;
   for (auto _ : state) benchmark::DoNotOptimize(solver.solve(u).replacement);
   report(state, solver.solve(u), 5);
@@ -78,8 +69,7 @@ void vertical(benchmark::State& state) {
 
 /// The same from the state of a wind that was 2 % weaker.
 void vertical_warm(benchmark::State& state) {
-  const SaltationSolver solver(
-      thesis_bed(), DistributionKernel(DistributionSplash::thesis_case(static_cast<int>(state.range(0)))));
+  const SaltationSolver solver(thesis_bed(), thesis_splash(static_cast<int>(state.range(0))));
   const double u = static_cast<double>(state.range(1)) / 100;
   const SteadyState before = solver.solve(u / 1.02);
   for (auto _ : state) benchmark::DoNotOptimize(solver.solve(u, &before).replacement);
@@ -87,7 +77,7 @@ void vertical_warm(benchmark::State& state) {
 }
 
 void literal(benchmark::State& state) {
-  const DistributionKernel kernel(DistributionSplash::thesis_case(1));
+  const DistributionKernel kernel = thesis_splash(1);
   for (auto _ : state)
     benchmark::DoNotOptimize(literal_iteration(thesis_bed(), kernel, 0.75, 1e-3).replacement);
   report(state, literal_iteration(thesis_bed(), kernel, 0.75, 1e-3), 5);

@@ -1,9 +1,7 @@
 #pragma once
 
+#include "../test/aeolian_core/saltation/thesis_bed.hpp"
 #include "accuracy_table.hpp"
-
-#include "aeolian_core/saltation/distribution_kernel.hpp"
-#include "aeolian_core/saltation/steady_state.hpp"
 
 namespace aeolian {
 
@@ -19,19 +17,8 @@ void mixture_rows(AccuracyTable& table);  ///< several sizes
 
 constexpr double percent = 0.01;
 
-/// Sand and air of the thesis (saltation specification, sec. 4).
-inline SaltatingBed thesis_bed(double drag_scale = 1) {
-  SaltatingBed bed;
-  bed.grain.diameter = 0.00025;
-  bed.grain.density = 2600;
-  bed.atmosphere = {1.23, 1.46e-5, 9.81};
-  bed.drag_law = DragLaw::sphere;
-  bed.drag_scale = drag_scale;
-  return bed;
-}
-
 inline SaltationSolver thesis_solver(int number, double drag_scale = 1) {
-  return {thesis_bed(drag_scale), DistributionKernel(DistributionSplash::thesis_case(number))};
+  return {thesis_bed(drag_scale), thesis_splash(number)};
 }
 
 inline std::string name_of(int number, double u) { return fmt::format("case {}, u* {:g}", number, u); }

@@ -6,9 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "error_of.hpp"
 #include <stdlib.h>
-
-#include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 
@@ -43,17 +42,6 @@ class TemporaryFolder {
 inline std::string content_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The message of the Error that `call` throws; says so when there is none.
-template <class Call>
-std::string error_of(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error was thrown";
 }
 
 }  // namespace aeolian

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 
 #include "../temporary_folder.hpp"
 #include "program_outcome.hpp"
+#include "running_program.hpp"
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 #include <sys/wait.h>
@@ -87,6 +90,66 @@ TEST_F(SplashStudy, CtrlCKeepsWhatIsDone) {
   const std::string events = content_of(folder_.file("results/events.csv"));
   EXPECT_GT(std::count(events.begin(), events.end(), '\n'), 1);
   EXPECT_FALSE(fs::exists(folder_.file("results/splash_table.csv")));
+}
+
+/// Killed again and again, with half a row at the journal's end: no file tells.
+TEST_F(SplashStudy, AKilledStudyGoesOnAndItsResultsDoNotTell) {
+  const std::string arguments = "--config " + folder_.file("small.yaml") + " --impacts 60 --out results";
+  const std::string whole = folder_.file("whole"), broken = folder_.file("broken");
+  for (const std::string& place : {whole, broken}) fs::create_directory(place);
+  ASSERT_EQ(run_program("splash_study " + arguments, whole).code, 0);
+  const std::string journal = broken + "/results/unfinished.csv";
+  const auto rows = [&] {
+    const std::string text = content_of(journal);
+    return std::count(text.begin(), text.end(), '\n') - std::count(text.begin(), text.end(), '#');
+  };
+  for (const int enough : {5, 20}) {
+    RunningProgram study("splash_study", {"--config", folder_.file("small.yaml"), "--impacts", "60", "--out",
+                                          broken + "/results"});
+    while (study.lives() && rows() < enough) std::this_thread::yield();
+    study.kill_now();
+    EXPECT_GE(rows(), enough);
+    EXPECT_LT(rows(), 60);
+    EXPECT_FALSE(fs::exists(broken + "/results/summary.csv"));
+    std::ofstream(journal, std::ios::app) << "0,59,12,0.5235";
+  }
+  const Outcome last = run_program("splash_study " + arguments, broken);
+  EXPECT_EQ(last.code, 0) << last.err;
+  EXPECT_EQ(last.out.find("goes on after "), 0U) << last.out;
+  EXPECT_FALSE(fs::exists(journal));
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(whole + "/results")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(content_of(entry.path().string()), content_of(broken + "/results/" + name)) << name;
+    ++files;
+  }
+  EXPECT_GE(files, 16U);
+}
+
+TEST_F(SplashStudy, AnUnfinishedStudyOfOtherSettingsIsKeptUnlessAskedFor) {
+  const std::string base = "--config small.yaml --out results";
+  fs::create_directory(folder_.file("results"));
+  const auto kept = [&] { return content_of(folder_.file("results/unfinished.csv")); };
+  folder_.write("results/unfinished.csv", "# of something else\n");
+  const Outcome other = run(base);
+  EXPECT_EQ(other.code, 1);
+  EXPECT_EQ(other.err,
+            "splash_study: results/unfinished.csv: is of a study with other settings; give another --out, or "
+            "--fresh to begin anew\n");
+  EXPECT_EQ(kept(), "# of something else\n");
+  EXPECT_EQ(
+      run_shell("timeout --preserve-status -s INT 2 " AEOLIAN_BIN "/splash_study --fresh --impacts 100000 " +
+                base),
+      130);
+  const std::string journal = kept();  // with whole rows: the study ended itself
+  EXPECT_NE(journal.find("# number: 100000\n# seed: 1\n"), std::string::npos) << journal;
+  EXPECT_EQ(run(base + " --impacts 100000 --seed 2").code, 1);
+  folder_.write("results/unfinished.csv", journal + "nonsense\n");
+  EXPECT_EQ(
+      run(base + " --impacts 100000").err,
+      "splash_study: results/unfinished.csv: 'nonsense...' is no impact; --fresh begins the study anew\n");
+  EXPECT_EQ(run(base + " --fresh").code, 0);
+  EXPECT_FALSE(fs::exists(folder_.file("results/unfinished.csv")));
 }
 
 TEST_F(SplashStudy, RefusesWhatItCannotUse) {

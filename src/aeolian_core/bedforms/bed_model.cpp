@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* property, double value, const char* range) {
-  if (allowed) return;
-  std::ostringstream text;
-  text << "forcing: " << property << " is " << value << ", must be " << range;
-  throw Error(text.str());
-}
+constexpr Require require{"forcing"};
 
 }  // namespace
 

@@ -1,19 +1,13 @@
 #include "aeolian_core/grains/grain.hpp"
 
 #include <cmath>
-#include <sstream>
 
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* property, double value, const char* range) {
-  if (allowed) return;
-  std::ostringstream text;
-  text << "grain: " << property << " is " << value << ", must be " << range;
-  throw Error(text.str());
-}
+constexpr Require require{"grain"};
 
 }  // namespace
 

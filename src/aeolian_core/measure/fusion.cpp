@@ -13,6 +13,7 @@
 #include "aeolian_core/measure/point_locator.hpp"
 #include "aeolian_core/measure/sample_buckets.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
@@ -30,10 +31,7 @@ bool for_one_thread(std::size_t points) { return points < points_for_threads; }
 /// A still tile gathers scans for this part of the time for which a bed goes on rising or sinking.
 constexpr double gathering_share = 1.0 / 64;
 
-void require(bool allowed, const char* name, double value, const char* what) {
-  if (!allowed)
-    throw Error("fusion: " + std::string(name) + " is " + std::to_string(value) + ", must be " + what);
-}
+constexpr Require require{"fusion"};
 
 /// What a reading at the least range says of a height, without the ray's slant [m^2].
 double reference_variance(const FusionParameters& p) {

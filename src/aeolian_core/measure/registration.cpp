@@ -13,9 +13,9 @@
 
 #include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/measure/map_surface.hpp"
-#include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/surface/quiet_pcl.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
@@ -27,9 +27,7 @@ constexpr double step_per_cell = 5e-3;
 /// Side of NDT's voxels, in cells of the map.
 constexpr double cells_per_voxel = 10;
 
-void require(bool allowed, const char* name, double value, const char* what) {
-  if (!allowed) throw Error(fmt::format("registration: {} is {:g}, must be {}", name, value, what));
-}
+constexpr Require require{"registration"};
 
 void check(const RegistrationParameters& p) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };

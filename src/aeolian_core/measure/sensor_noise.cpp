@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* name, double value, const char* what) {
-  if (!allowed)
-    throw Error("sensor noise: " + std::string(name) + " is " + std::to_string(value) + ", must be " + what);
-}
+constexpr Require require{"sensor noise"};
 
 }  // namespace
 

@@ -84,6 +84,7 @@ void Approach::accept() {
 }
 
 void Approach::mix(double most) {
+  if (extended_) return;  // and accepted: its residual would say that nothing is left to change
   const auto n = static_cast<Eigen::Index>(spectrum_.size());
   const auto m = static_cast<Eigen::Index>(share_.size());
   const double asked = std::clamp(-gain * std::log(replacement_), -longest_step, longest_step);

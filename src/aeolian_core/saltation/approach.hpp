@@ -25,7 +25,7 @@ class Approach {
   /// Goes on with the spectrum and grains that the last step has made.
   void accept();
   /// The same, mixed with the past, and with the surface wind that may bring the replacement to one; it stays
-  /// below `most`.
+  /// below `most`. After a longer spectrum the step is only taken anew.
   void mix(double most);
   void forget() { mixing_.forget(); }
 

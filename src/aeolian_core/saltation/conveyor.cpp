@@ -6,14 +6,12 @@
 #include <string>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* what, double value, const char* range) {
-  if (!allowed)
-    throw Error(std::string("conveyor: ") + what + " is " + std::to_string(value) + ", must be " + range);
-}
+constexpr Require require{"conveyor"};
 
 void check(const Belt& belt) {
   require(belt.power > 0 && std::isfinite(belt.power), "power", belt.power, "positive");

@@ -6,18 +6,14 @@
 #include <numeric>
 #include <utility>
 
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr double fastest_launch = 50;  ///< no bed throws grains faster [m/s]
 
-void require(bool allowed, const char* parameter, double value, const char* range) {
-  if (!allowed)
-    throw Error(std::string("distribution splash: ") + parameter + " is " + std::to_string(value) +
-                ", must be " + range);
-}
+constexpr Require require{"distribution splash"};
 
 /// Cumulative normal distribution, from a table: good to 2e-6.
 class Normal {

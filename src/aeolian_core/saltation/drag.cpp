@@ -4,15 +4,12 @@
 #include <string>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* property, double value, const char* range) {
-  if (!allowed)
-    throw Error(std::string("atmosphere: ") + property + " is " + std::to_string(value) + ", must be " +
-                range);
-}
+constexpr Require require{"atmosphere"};
 
 /// c_d Re, which stays finite in still air.
 double coefficient_times_reynolds(DragLaw law, double reynolds) {

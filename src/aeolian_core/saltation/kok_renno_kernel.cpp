@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
@@ -15,11 +16,7 @@ constexpr int knots_per_octave = 16;
 constexpr double slowest_impact = 1.0 / 64;               ///< [m/s], below: in proportion
 constexpr std::size_t all_knots = 16 * knots_per_octave;  ///< up to 1000 m/s
 
-void require(bool allowed, const char* constant, double value, const char* range) {
-  if (!allowed)
-    throw Error(std::string("Kok & Renno's splash: ") + constant + " is " + std::to_string(value) +
-                ", must be " + range);
-}
+constexpr Require require{"Kok & Renno's splash"};
 
 double normal_below(double z) { return 0.5 * std::erfc(-z / M_SQRT2); }
 

@@ -16,6 +16,7 @@
 #include "aeolian_core/saltation/literal_iteration.hpp"
 #include "aeolian_core/saltation/mixture_solver.hpp"
 #include "aeolian_core/saltation/profiles.hpp"
+#include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/saltation/saltation_state.hpp"
 #include "aeolian_core/saltation/saltation_table.hpp"
 #include "aeolian_core/saltation/sampled_kernel.hpp"

@@ -10,6 +10,7 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
+constexpr double kept_tolerance = 1e-4;  ///< what is kept has time to be solved well
 
 void require_ascending(const char* what, const std::vector<double>& values, double least) {
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -43,6 +44,7 @@ struct Column {
   const char* name;
   double SaltationState::*value;
   double unit;
+  bool needed = true;  ///< a file without it is read as zeros
 };
 constexpr Column columns[] = {
     {"friction_velocity_m_s", &SaltationState::friction_velocity, 1},
@@ -56,6 +58,7 @@ constexpr Column columns[] = {
     {"hop_height_m", &SaltationState::hop_height, 1},
     {"flight_time_s", &SaltationState::flight_time, 1},
     {"apparent_roughness_m", &SaltationState::apparent_roughness, 1},
+    {"impact_angle_spread_deg", &SaltationState::impact_angle_spread, degree, false},
 };
 
 }  // namespace
@@ -104,7 +107,7 @@ SaltationTable SaltationTable::build(const SaltatingBed& bed, const Kernels& ker
   const auto solver_of = [&](double diameter) {
     SaltatingBed one = bed;
     one.grain.diameter = diameter;
-    return SaltationSolver(one, *kernels(one));
+    return SaltationSolver(one, *kernels(one), {kept_tolerance});
   };
   for (const double diameter : diameters) {
     const SaltationSolver solver = solver_of(diameter);
@@ -137,6 +140,7 @@ SaltationTable::Scaled SaltationTable::scaled(const SaltationState& s, double di
           s.surface_friction_velocity / threshold,
           s.impact_speed / speed,
           s.impact_angle,
+          s.impact_angle_spread,
           s.hop_length / diameter,
           s.hop_height / diameter,
           s.flight_time * speed / diameter,
@@ -203,6 +207,7 @@ SaltationState SaltationTable::state(double u, double diameter) const {
   };
   s.impact_speed = mix(&Scaled::speed) * speed;
   s.impact_angle = mix(&Scaled::angle);
+  s.impact_angle_spread = mix(&Scaled::spread);
   s.hop_length = mix(&Scaled::length) * diameter;
   s.hop_height = mix(&Scaled::height) * diameter;
   s.flight_time = mix(&Scaled::time) * diameter / speed;
@@ -220,7 +225,7 @@ SaltationState SaltationTable::state(double u, double diameter) const {
   return s;
 }
 
-void SaltationTable::write(const std::string& path) const {
+void SaltationTable::write(const std::string& path, const std::string& command) const {
   Table file;
   const auto add = [&](const std::string& name, const auto& value) {
     file.names.push_back(name);
@@ -235,7 +240,7 @@ void SaltationTable::write(const std::string& path) const {
   add("air_density_kg_m3", [&](std::size_t) { return air_density_; });
   add("gravity_m_s2", [&](std::size_t) { return gravity_; });
   add("flux_error", [&](std::size_t) { return error_; });
-  write_csv(file, path);
+  write_csv(file, path, command);
 }
 
 SaltationTable SaltationTable::read(const std::string& path) {
@@ -266,6 +271,7 @@ SaltationTable SaltationTable::read(const std::string& path) {
   require_ascending("ratio", table.ratios_, 1);
   table.states_.resize(diameter.size());
   for (const Column& one : columns) {
+    if (!one.needed && !file.has(one.name)) continue;
     const std::vector<double>& values = column(one.name);
     for (std::size_t i = 0; i < values.size(); ++i) table.states_[i].*one.value = values[i] * one.unit;
   }

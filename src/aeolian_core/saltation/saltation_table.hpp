@@ -31,7 +31,8 @@ class SaltationTable {
 
   /// Throws Error naming file and column or row of anything that write() would not have written.
   static SaltationTable read(const std::string& path);
-  void write(const std::string& path) const;  ///< as CSV, atomically
+  /// As CSV, atomically, with the command that made it at its head.
+  void write(const std::string& path, const std::string& command = "") const;
 
   /// The state between the solved ones; nothing moves up to the threshold. Above the largest ratio the flux
   /// goes on as the flux law and the means stay. Throws Error for a friction velocity that is negative or not
@@ -50,7 +51,7 @@ class SaltationTable {
  private:
   /// What varies slowly, without dimensions where possible.
   struct Scaled {
-    double flux, surface, speed, angle, length, height, time, log_roughness;
+    double flux, surface, speed, angle, spread, length, height, time, log_roughness;
   };
   struct Place {
     std::size_t index;

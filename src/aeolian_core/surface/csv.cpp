@@ -69,8 +69,8 @@ Table read_csv(const std::string& path) {
   return table;
 }
 
-void write_csv(const Table& table, const std::string& path) {
-  std::string text;
+void write_csv(const Table& table, const std::string& path, const std::string& comment) {
+  std::string text = comment.empty() ? "" : "# " + comment + "\n";
   for (std::size_t c = 0; c < table.names.size(); ++c) {
     if (c > 0) text += ',';
     text += table.names[c];

@@ -22,8 +22,9 @@ struct Table {
 /// Throws Error naming file, line and field for anything that is not a number, and for rows of another
 /// length.
 Table read_csv(const std::string& path);
-/// Writes a table, atomically, with the digits that read back to the same double.
-void write_csv(const Table& table, const std::string& path);
+/// Writes a table, atomically, with the digits that read back to the same double; above it the comment, a
+/// line, unless it is empty.
+void write_csv(const Table& table, const std::string& path, const std::string& comment = "");
 
 /// Writes a map as columns x_m,y_m and one column for each layer, known cells only, atomically.
 void write_map_csv(const HeightMap& map, const std::string& path);

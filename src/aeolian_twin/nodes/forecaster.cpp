@@ -10,6 +10,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "aeolian_core/bedforms/ripple_model.hpp"
+#include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/wind/direction.hpp"
@@ -18,6 +19,11 @@
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
+namespace {
+
+const std::string law = "law";  // name of the three-number law
+
+}  // namespace
 
 /// Runs the ripple model forward from the newest map, in a thread of its own.
 class Forecaster : public Node {
@@ -50,6 +56,7 @@ class Forecaster : public Node {
     grain_.porosity = parameters().number("porosity");
     grain_.angle_of_repose = degrees_to_radians(parameters().number("angle_of_repose_deg"));
     check(grain_);
+    saltation_ = read_saltation(parameters().text("saltation"));
     splash_.reptation_diameters = parameters().number("reptation_diameters");
     RippleParameters ripple;
     ripple.hop_shortening = parameters().number("hop_shortening");
@@ -83,12 +90,28 @@ class Forecaster : public Node {
     worker_ = std::thread([this] { work(); });
   }
 
+  /// The law or a table. A file that cannot be used is told, and the law is used; a table that can but knows
+  /// nothing of the grain is refused.
+  SaltationSource read_saltation(const std::string& name) {
+    if (name == law) return {};
+    SaltationSource solved;
+    try {
+      solved = SaltationSource(SaltationTable::read(name));
+    } catch (const Error& error) {
+      bad("saltation", fmt::format("{}; the three-number law is used", error.what()));
+      return {};
+    }
+    solved.check(grain_);
+    good("saltation", "states of " + name);
+    return solved;
+  }
+
   void take_wind(const grid_map_msgs::GridMap::ConstPtr& message) {
     try {
       require_frame(wind_subscriber_.getTopic(), message->info.header);
       const ros::Time stamp = message->info.header.stamp;
       const WindField field = to_wind_field(*message);
-      const SaltationState state = steady_saltation(field.friction_velocity, grain_, field.air_density);
+      const SaltationState state = saltation_.state(field.friction_velocity, grain_, field.air_density);
       if (!wind_.empty() && stamp < wind_.back().stamp) wind_.clear();  // a bag that loops
       wind_.push_back({stamp, make_forcing(state, field.direction, grain_, splash_)});
       // Maps may be stamped well before the newest wind, so twice the window is kept.
@@ -205,6 +228,7 @@ class Forecaster : public Node {
   }
 
   Grain grain_;
+  SaltationSource saltation_;
   MeanSplash splash_;
   std::vector<double> horizons_;
   ros::Duration period_;
@@ -244,6 +268,7 @@ NodeDescription describe_forecaster() {
           {"grain_density", grain.density, "kg/m^3", "of the solid", Limits::positive()},
           {"porosity", grain.porosity, "", "of the bed at rest", Limits::between(0, 0.95)},
           {"angle_of_repose_deg", 33.0, "degrees", "of the bed", Limits::between(1, 60)},
+          {"saltation", law, "", "law (of three numbers), or the path of a table of solved states"},
           {"reptation_diameters", MeanSplash{}.reptation_diameters, "grain diameters",
            "mean length of a reptation hop", Limits::positive()},
           {"hop_shortening", ripple.hop_shortening, "", "hops end early by this share of the bed's rise",

@@ -66,7 +66,8 @@ StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progres
 
 template <int Dim>
 std::vector<StudyPoint> fire_all(const StudySettings& study, const StudyBeds<Dim>& beds,
-                                 const StudyProgress& progress, const std::atomic<bool>& stop) {
+                                 StudyJournal& journal, const StudyProgress& progress,
+                                 const std::atomic<bool>& stop) {
   std::vector<StudyPoint> points;
   for (std::size_t kind = 0; kind < beds.kinds.size(); ++kind)
     for (const double ratio : study.size_ratios)
@@ -83,12 +84,13 @@ std::vector<StudyPoint> fire_all(const StudySettings& study, const StudyBeds<Dim
     series.impacts = study.impacts;
     series.seed = derived_seed(study.seed, for_impacts, finished);
     const auto& of_kind = beds.kinds[point.kind];
-    const auto tell = [&](int done) {
+    const auto tell = [&](const ImpactOutcome& outcome, int done) {
+      journal.add(finished, outcome);
       const double share = (static_cast<double>(finished) + static_cast<double>(done) / study.impacts) /
                            static_cast<double>(points.size());
       progress(share, fmt::format("impacts at {:.3g} m/s, {:.3g}°", point.speed, point.angle * 180 / M_PI));
     };
-    point.outcomes = fire_series<Dim>(of_kind, series, study.rules, tell, &stop);
+    point.outcomes = fire_series<Dim>(of_kind, series, study.rules, tell, &stop, journal.done(finished));
     point.statistics = impact_statistics<Dim>(point.outcomes, of_kind.front());
     ++finished;
   }
@@ -100,9 +102,9 @@ template struct StudyBeds<2>;
 template struct StudyBeds<3>;
 template StudyBeds<2> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
 template StudyBeds<3> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
-template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&, const StudyProgress&,
-                                          const std::atomic<bool>&);
-template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&, const StudyProgress&,
-                                          const std::atomic<bool>&);
+template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&, StudyJournal&,
+                                          const StudyProgress&, const std::atomic<bool>&);
+template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&, StudyJournal&,
+                                          const StudyProgress&, const std::atomic<bool>&);
 
 }  // namespace aeolian

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aeolian_core/grains/impacts/impact_statistics.hpp"
+#include "aeolian_twin/splash/study_journal.hpp"
 #include "aeolian_twin/splash/study_settings.hpp"
 
 namespace aeolian {
@@ -36,18 +37,20 @@ template <int Dim>
 StudyBeds<Dim> lay_beds(const StudySettings& study, const StudyProgress& progress,
                         const std::atomic<bool>& stop);
 
-/// Fires all impacts; when `stop` becomes true, the result has what is done.
+/// Fires all impacts but those of the journal, which it keeps; when `stop` becomes true, the result has what
+/// is done.
 template <int Dim>
 std::vector<StudyPoint> fire_all(const StudySettings& study, const StudyBeds<Dim>& beds,
-                                 const StudyProgress& progress, const std::atomic<bool>& stop);
+                                 StudyJournal& journal, const StudyProgress& progress,
+                                 const std::atomic<bool>& stop);
 
 extern template struct StudyBeds<2>;
 extern template struct StudyBeds<3>;
 extern template StudyBeds<2> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
 extern template StudyBeds<3> lay_beds(const StudySettings&, const StudyProgress&, const std::atomic<bool>&);
-extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&,
+extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<2>&, StudyJournal&,
                                                  const StudyProgress&, const std::atomic<bool>&);
-extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&,
+extern template std::vector<StudyPoint> fire_all(const StudySettings&, const StudyBeds<3>&, StudyJournal&,
                                                  const StudyProgress&, const std::atomic<bool>&);
 
 }  // namespace aeolian

@@ -44,22 +44,6 @@ class Lines {
   bool begun_ = false;
 };
 
-std::string name_of(Origin origin) {
-  switch (origin) {
-    case Origin::rebound:
-      return "rebound";
-    case Origin::target:
-      return "target";
-    case Origin::brink:
-      return "brink";
-    case Origin::anti_brink:
-      return "anti_brink";
-    case Origin::other:
-      break;
-  }
-  return "other";
-}
-
 }  // namespace
 
 void write_events_csv(const std::vector<StudyPoint>& points, const std::string& path) {
@@ -84,8 +68,7 @@ void write_events_csv(const std::vector<StudyPoint>& points, const std::string& 
       else
         lines << unknown << unknown << unknown << unknown << unknown;
       double reptation = 0;
-      for (const RisenGrain& grain : o.ejecta)
-        reptation += 2 * grain.velocity.x() * grain.velocity.z() / gravity;
+      for (const RisenGrain& grain : o.ejecta) reptation += ballistic_hop(grain.velocity);
       lines << static_cast<double>(o.ejecta.size()) << reptation;
       lines.end();
     }

@@ -1,6 +1,5 @@
 #include "aeolian_twin/splash/study_quantities.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,15 +48,11 @@ std::vector<Quantity> quantities(const ImpactStatistics& s) {
       {"origin_distance_m", s.origin_distance},
       {"from_upper_layers", {s.from_upper_layers, unknown, unknown, s.origin_up.count}},
   };
-  const std::array<std::pair<Origin, const char*>, 4> kinds = {{{Origin::target, "target"},
-                                                                {Origin::brink, "brink"},
-                                                                {Origin::anti_brink, "anti_brink"},
-                                                                {Origin::other, "other"}}};
-  for (const auto& [origin, name] : kinds) {
+  for (const Origin origin : ejecta_origins) {
     const auto found = s.by_origin.find(origin);
     if (found == s.by_origin.end()) continue;
     const EjectaShare& ejecta = found->second;
-    const std::string prefix = name;
+    const std::string prefix = name_of(origin);
     list.push_back({prefix + "_number", ejecta.number});
     list.push_back({prefix + "_angle_deg", in_degrees(ejecta.angle)});
     list.push_back({prefix + "_momentum_share", ejecta.momentum});

@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -31,6 +32,13 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   }
+}
+
+/// What was typed, as it is typed anywhere: for files that tell how they were made.
+inline std::string typed_command(const char* name, int argc, char** argv) {
+  std::string command = std::string("rosrun aeolian_twin ") + name;
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  return command;
 }
 
 }  // namespace aeolian

@@ -230,7 +230,7 @@ int run(int argc, char** argv) {
     SaltationTable::build(
         bed, [&](const SaltatingBed& one) { return splash_choice(o.splash, one, o.thesis_case); },
         SaltationTable::usual_diameters(), SaltationTable::usual_ratios())
-        .write(o.table);
+        .write(o.table, typed_command("saltation", argc, argv));
   tell(found);
   if (mixed) tell(*mixed);
   return 0;

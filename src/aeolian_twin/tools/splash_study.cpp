@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -64,20 +65,21 @@ void write_pictures(const StudySettings& study, const StudyBeds<Dim>& beds,
 }
 
 template <int Dim>
-int run_study(const StudySettings& study, const std::string& command, const std::string& out) {
-  make_directory(out);
+int run_study(const StudySettings& study, StudyJournal journal, const std::string& command,
+              const std::string& out) {
+  const std::size_t all = study.beds.size() * study.speeds.size() * study.angles.size() *
+                          study.size_ratios.size() * static_cast<std::size_t>(study.impacts);
+  if (journal.count() > 0) fmt::print("goes on after {} of {} impacts\n", journal.count(), all);
   StudyBeds<Dim> beds;
   std::vector<StudyPoint> points;
   {
     ProgressBar bar;
     const auto progress = [&](double share, const std::string& task) { bar.at(share, task); };
     beds = lay_beds<Dim>(study, progress, stop);
-    points = fire_all<Dim>(study, beds, progress, stop);
+    points = fire_all<Dim>(study, beds, journal, progress, stop);
   }
   std::size_t done = 0;
   for (const StudyPoint& point : points) done += point.outcomes.size();
-  const std::size_t all = study.beds.size() * study.speeds.size() * study.angles.size() *
-                          study.size_ratios.size() * static_cast<std::size_t>(study.impacts);
   if (done == 0) {
     fmt::print(stderr, "splash_study: stopped before the first impact was over, nothing is written\n");
     return stopped_code;
@@ -89,13 +91,23 @@ int run_study(const StudySettings& study, const std::string& command, const std:
   for (const StudyPoint& point : points) print_point(point);
   if (done == all) study_table(study, points, command).write(out + "/splash_table.csv");
   write_pictures(study, beds, points, out);
-  if (done < all) {
-    fmt::print(stderr, "splash_study: stopped; {} of {} impacts are done and written to {}\n", done, all,
-               out);
+  if (done < all || stop) {
+    fmt::print(
+        stderr,
+        "splash_study: stopped; {} of {} impacts are done and written to {}; the same command goes on\n",
+        done, all, out);
     return stopped_code;
   }
+  journal.finish();
   fmt::print("{} impacts -> {}\n", done, out);
   return 0;
+}
+
+/// All that decides the impacts, in words.
+std::string settings_of(const std::string& config, const StudySettings& study) {
+  return fmt::format("{}\nspeeds: [{}]\nangles: [{}]\nnumber: {}\nseed: {}\n",
+                     config.empty() ? study.name : YAML::Dump(YAML::LoadFile(config)),
+                     fmt::join(study.speeds, ", "), fmt::join(study.angles, ", "), study.impacts, study.seed);
 }
 
 constexpr const char* description =
@@ -106,7 +118,7 @@ constexpr const char* description =
 Written to DIR: summary.csv (means, half-widths, standard errors, beside the thesis' numbers), events.csv (a row an
 impact), ejecta.csv (a row a grain), beds.csv, splash_table.csv (for the saltation model), histograms.svg (or trends.svg
 for a grid of speeds and angles), and one impact to look at: impact.webp moves, impact.png has its frames. Without --config it is the thesis' CASE A.
-Ctrl-C keeps what is done. docs/splash_study.md explains configs and results.)";
+Ctrl-C keeps what is done, and the same command goes on from there, whatever has ended it; --fresh begins anew. docs/splash_study.md explains configs and results.)";
 
 int run(int argc, char** argv) {
   CLI::App app(description);
@@ -116,6 +128,7 @@ int run(int argc, char** argv) {
   double angle = 0;
   int impacts = 0;
   std::uint64_t seed = 1;
+  bool fresh = false;
   app.add_option("--config", config, "YAML file of the study, see config/splash");
   const auto* speed_option = app.add_option("--speed", speed, "of impact [m/s], instead of the config's")
                                  ->check(CLI::Range(1e-3, 1000.));
@@ -125,6 +138,7 @@ int run(int argc, char** argv) {
   const auto* impacts_option = app.add_option("--impacts", impacts, "of each kind, instead of the config's")
                                    ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", seed, "decides everything random, default 1");
+  app.add_flag("--fresh", fresh, "begin anew where --out holds an unfinished study");
   app.add_option("--out", out, "folder for the results, created when it does not exist")->required();
   if (const auto code = parse(app, argc, argv)) return *code;
 
@@ -135,11 +149,13 @@ int run(int argc, char** argv) {
   if (impacts_option->count() > 0) study.impacts = impacts;
   study.filmed = std::min(study.filmed, study.impacts - 1);
   study.seed = seed;
-  std::string command = "rosrun aeolian_twin splash_study";
-  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  const std::string command = typed_command("splash_study", argc, argv);
   std::signal(SIGINT, [](int) { stop = true; });
   std::signal(SIGTERM, [](int) { stop = true; });
-  return study.dimensions == 2 ? run_study<2>(study, command, out) : run_study<3>(study, command, out);
+  make_directory(out);
+  StudyJournal journal(out, settings_of(config, study), fresh);
+  return study.dimensions == 2 ? run_study<2>(study, std::move(journal), command, out)
+                               : run_study<3>(study, std::move(journal), command, out);
 }
 
 }  // namespace

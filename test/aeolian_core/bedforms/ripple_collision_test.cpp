@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../../temporary_folder.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

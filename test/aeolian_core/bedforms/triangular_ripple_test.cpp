@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../../temporary_folder.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "../../temporary_folder.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../../error_of.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 
@@ -288,14 +289,7 @@ TEST(Fusion, CountsThePointsOfACell) {
 
 TEST(Fusion, NamesABadParameter) {
   const GridGeometry g(0, 0, 1, 1, 1);
-  const auto message = [&](const FusionParameters& p) {
-    try {
-      HeightFusion fusion(g, p);
-    } catch (const Error& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
+  const auto message = [&](const FusionParameters& p) { return error_of([&] { HeightFusion(g, p); }); };
   FusionParameters p;
   p.sensor.range_sigma = 0;
   EXPECT_NE(message(p).find("range_sigma"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
+#include "aeolian_core/surface/csv.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -60,6 +61,30 @@ TEST(SaltationTableTest, reads_back_what_it_wrote) {
     EXPECT_DOUBLE_EQ(read.state(u, 0.00022).mass_flux, small_table().state(u, 0.00022).mass_flux);
     EXPECT_NEAR(read.state(u, 0.00022).impact_angle, small_table().state(u, 0.00022).impact_angle, 1e-12);
   }
+}
+
+TEST(SaltationTableTest, the_file_begins_with_its_command_and_old_ones_have_no_spread_of_angles) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("table.csv");
+  small_table().write(path, "saltation --write-table table.csv");
+  std::string text = content_of(path);
+  EXPECT_EQ(text.find("# saltation --write-table table.csv\ndiameter_m,"), 0U);
+  const SaltationTable whole = SaltationTable::read(path);
+  EXPECT_DOUBLE_EQ(whole.state(0.5, 0.00022).impact_angle_spread,
+                   small_table().state(0.5, 0.00022).impact_angle_spread);
+  const Table columns = read_csv(path);
+  Table old;
+  for (std::size_t i = 0; i < columns.names.size(); ++i) {
+    if (columns.names[i] == "impact_angle_spread_deg") continue;
+    old.names.push_back(columns.names[i]);
+    old.columns.push_back(columns.columns[i]);
+  }
+  write_csv(old, path);
+  EXPECT_EQ(SaltationTable::read(path).state(0.5, 0.00022).impact_angle_spread, 0);
+  old.names.push_back("impact_angle_spread_deg");
+  old.columns.emplace_back(old.rows(), 9);
+  write_csv(old, path);
+  EXPECT_NEAR(SaltationTable::read(path).state(0.5, 0.00022).impact_angle_spread, 9 * M_PI / 180, 1e-12);
 }
 
 TEST(SaltationTableTest, refuses_what_is_not_a_table) {

@@ -1,6 +1,6 @@
 #include "aeolian_twin/nodes/live_map.hpp"
 
-#include "../../temporary_folder.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

@@ -1,10 +1,10 @@
 #include <cmath>
 
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
-#include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 
 namespace aeolian {
@@ -20,17 +20,6 @@ sensor_msgs::Image image(const std::string& encoding, unsigned bytes) {
   for (unsigned i = 0; i < message.step * message.height; ++i)
     message.data.push_back(static_cast<std::uint8_t>(i));
   return message;
-}
-
-/// What a call throws.
-template <class Call>
-std::string complaint(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing";
 }
 
 TEST(PhotoConversions, GreyImagesKeepTheirValues) {
@@ -94,10 +83,10 @@ TEST(PhotoConversions, PicturesAreBgrAndComeBack) {
 
 TEST(PhotoConversions, BadImagesAreRefusedInOneLine) {
   const auto refused = [](const sensor_msgs::Image& message, const std::string& text) {
-    const std::string line = complaint([&] { to_photo(message); });
+    const std::string line = error_of([&] { to_photo(message); });
     EXPECT_NE(line.find(text), std::string::npos) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
-    EXPECT_EQ(line, complaint([&] { to_picture(message); }));
+    EXPECT_EQ(line, error_of([&] { to_picture(message); }));
   };
   refused(image("bayer_rggb8", 1), "encoding is 'bayer_rggb8', must be mono8");
   refused(image("", 1), "encoding is ''");
@@ -149,7 +138,7 @@ TEST(PhotoConversions, CamerasThatCannotBeUsedAreRefused) {
                           const std::string& text) {
     sensor_msgs::CameraInfo info = camera_info();
     spoil(info);
-    const std::string line = complaint([&] { to_camera_model(info); });
+    const std::string line = error_of([&] { to_camera_model(info); });
     EXPECT_NE(line.find(text), std::string::npos) << line;
   };
   refused([](auto& info) { info.K.fill(0); }, "is the camera calibrated?");

@@ -9,15 +9,14 @@
 #include "aeolian_core/grains/impacts/bed_state.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
 using Packing = BedRecipe::Packing;
 
-void require(bool allowed, const char* part, double value, const char* range) {
-  if (!allowed) throw Error(fmt::format("bed: {} is {:g}, must be {}", part, value, range));
-}
+constexpr Require require{"bed"};
 
 void require_valid(const BedRecipe& recipe, int dimensions) {
   require(recipe.radius > 0 && std::isfinite(recipe.radius), "radius", recipe.radius, "positive");

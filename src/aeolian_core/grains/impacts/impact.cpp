@@ -4,16 +4,12 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* part, double value, const char* range) {
-  if (!allowed) throw Error(fmt::format("shot: {} is {:g}, must be {}", part, value, range));
-}
+constexpr Require require{"shot"};
 
 void require_valid(const Shot& shot) {
   require(shot.speed > 0 && std::isfinite(shot.speed), "speed", shot.speed, "positive");

@@ -13,7 +13,6 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double from_vertical(const Eigen::Vector3d& velocity) { return std::atan2(velocity.x(), velocity.z()); }
-double hop(const Eigen::Vector3d& velocity) { return 2 * velocity.x() * velocity.z() / gravity; }
 
 /// Collects one number an impact.
 class Collection {
@@ -104,8 +103,9 @@ EjectaShare share_of(Origin kind, const std::vector<const ImpactOutcome*>& outco
     });
   };
   return {of_kind([](const ImpactOutcome&, const RisenGrain&) { return 1.; }), pooled_mean(angles),
-          of_kind(momentum),
-          of_kind([](const ImpactOutcome&, const RisenGrain& grain) { return hop(grain.velocity); })};
+          of_kind(momentum), of_kind([](const ImpactOutcome&, const RisenGrain& grain) {
+            return ballistic_hop(grain.velocity);
+          })};
 }
 
 void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius, int dim,
@@ -122,8 +122,8 @@ void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius
   s.from_upper_layers =
       over_ejecta(outcomes, [](const RisenGrain& g) { return g.layer <= 2 ? 1. : 0.; }).mean;
   s.number = over_impacts(outcomes, [](const ImpactOutcome&, const RisenGrain&) { return 1.; });
-  s.reptation =
-      over_impacts(outcomes, [](const ImpactOutcome&, const RisenGrain& g) { return hop(g.velocity); });
+  s.reptation = over_impacts(
+      outcomes, [](const ImpactOutcome&, const RisenGrain& g) { return ballistic_hop(g.velocity); });
   s.ejected_along = over_impacts(outcomes, [&](const ImpactOutcome& o, const RisenGrain& g) {
     return share(o, g) * g.velocity.x() / o.shot.speed;
   });
@@ -142,8 +142,7 @@ void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius
     bed_energy.add(left);
   }
   s.bed_energy = bed_energy.mean();
-  for (const Origin kind : {Origin::target, Origin::brink, Origin::anti_brink, Origin::other})
-    s.by_origin[kind] = share_of(kind, outcomes, radius, dim);
+  for (const Origin kind : ejecta_origins) s.by_origin[kind] = share_of(kind, outcomes, radius, dim);
 }
 
 }  // namespace

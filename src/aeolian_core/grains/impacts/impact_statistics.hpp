@@ -27,7 +27,7 @@ struct EjectaShare {
   MeanValue number;
   MeanValue angle;      ///< from the vertical, positive along the flight, mean over grains [rad]
   MeanValue momentum;   ///< along the flight, over that of the incident grain
-  MeanValue reptation;  ///< sum of 2 v_x v_z / g [m]
+  MeanValue reptation;  ///< sum of ballistic hops [m]
 };
 
 /// What a series of impacts did (splash specification, sec. 3.3; Werner 1987, tables 3.2 to 3.9). Impacts
@@ -58,11 +58,16 @@ struct ImpactStatistics {
 
   // Ejecta: means over impacts.
   MeanValue number;
-  MeanValue reptation;                      ///< sum of 2 v_x v_z / g [m]
+  MeanValue reptation;                      ///< sum of ballistic hops [m]
   MeanValue ejected_along, ejected_up;      ///< momentum over the incident grain's size of momentum
   MeanValue ejected_energy;                 ///< over the incident grain's
   std::map<Origin, EjectaShare> by_origin;  ///< target, brink, anti_brink and other
 };
+
+/// Along the flight, of a grain that lands as high as it rose, without drag: 2 v_x v_z / g [m].
+inline double ballistic_hop(const Eigen::Vector3d& velocity) {
+  return 2 * velocity.x() * velocity.z() / gravity;
+}
 
 /// Momentum and energy in terms of a mean bed grain's mass, so that size ratios count.
 template <int Dim>

@@ -19,27 +19,32 @@ struct ImpactSeries {
   std::uint64_t seed = 1;
 };
 
+using ImpactDone = std::function<void(const ImpactOutcome& outcome, int over)>;
+
 /// Fires independent impacts at copies of the beds, on all threads; in the order of their numbers. The n-th
 /// impact hits bed n modulo their number at a place that depends on seed and n only, so that the result does
-/// not depend on threads, and a longer series begins with the shorter one. `done` is told the number of
-/// impacts that are over, one call at a time. When `stop` becomes true, those under way are finished, no
-/// other is begun, and the result has what there is. Throws Error for a shot that is not valid and for a
-/// series without beds.
+/// not depend on threads, and a longer series begins with the shorter one. `done` is told of each impact and
+/// how many are over with it, one call at a time. When `stop` becomes true, those under way are finished, no
+/// other is begun, and the result has what there is. `known` are outcomes of the same series: they are taken
+/// over. Throws Error for a shot that is not valid and for a series without beds.
 template <int Dim>
 std::vector<ImpactOutcome> fire_series(const std::vector<Bed<Dim>>& beds, const ImpactSeries& series,
-                                       const ImpactRules& rules, const std::function<void(int)>& done = {},
-                                       const std::atomic<bool>* stop = nullptr);
+                                       const ImpactRules& rules, const ImpactDone& done = {},
+                                       const std::atomic<bool>* stop = nullptr,
+                                       const std::vector<ImpactOutcome>& known = {});
 
 /// The n-th shot of a series at a bed.
 template <int Dim>
 Shot series_shot(const Bed<Dim>& bed, const ImpactSeries& series, int number);
 
 extern template std::vector<ImpactOutcome> fire_series(const std::vector<Bed<2>>&, const ImpactSeries&,
-                                                       const ImpactRules&, const std::function<void(int)>&,
-                                                       const std::atomic<bool>*);
+                                                       const ImpactRules&, const ImpactDone&,
+                                                       const std::atomic<bool>*,
+                                                       const std::vector<ImpactOutcome>&);
 extern template std::vector<ImpactOutcome> fire_series(const std::vector<Bed<3>>&, const ImpactSeries&,
-                                                       const ImpactRules&, const std::function<void(int)>&,
-                                                       const std::atomic<bool>*);
+                                                       const ImpactRules&, const ImpactDone&,
+                                                       const std::atomic<bool>*,
+                                                       const std::vector<ImpactOutcome>&);
 extern template Shot series_shot(const Bed<2>&, const ImpactSeries&, int);
 extern template Shot series_shot(const Bed<3>&, const ImpactSeries&, int);
 

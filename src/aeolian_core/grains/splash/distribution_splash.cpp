@@ -1,32 +1,29 @@
 #include "aeolian_core/grains/splash/distribution_splash.hpp"
 
+#include <array>
 #include <cmath>
-#include <string>
 
 #include "aeolian_core/grains/splash/bed_view.hpp"
 #include "aeolian_core/grains/splash/composed_splash.hpp"
 #include "aeolian_core/grains/splash/draws.hpp"
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
+namespace {
+
+constexpr Require require{"distribution splash"};
+
+}  // namespace
 
 DistributionSplash::Parameters DistributionSplash::thesis_case(int number) {
-  switch (number) {
-    case 1:
-      return {2, 0.35, 0, 0, 2.75, 0, 0.7, 0.1};
-    case 2:
-      return {2, 0.35, 0.2, 0.40, 2.75, 0, 0.7, 0.1};
-    case 3:
-      return {1, 0.35, 0.2, 0.40, 2.75, 0, 0.7, 0.1};
-    case 4:
-      return {0, 0, 0.2, 0.80, 0, 0, 0.7, 0.1};
-    case 5:
-      return {2, 0.35, 0, 0, 2.75, 1, 0.3, 0.1};
-    case 6:
-      return {2, 0.35, 0.2, 0.40, 2.75, 1, 0.3, 0.1};
-    default:
-      throw Error("distribution splash: case is " + std::to_string(number) + ", must be 1 to 6");
-  }
+  static constexpr std::array<Parameters, 6> cases{{{2, 0.35, 0, 0, 2.75, 0, 0.7, 0.1},
+                                                    {2, 0.35, 0.2, 0.40, 2.75, 0, 0.7, 0.1},
+                                                    {1, 0.35, 0.2, 0.40, 2.75, 0, 0.7, 0.1},
+                                                    {0, 0, 0.2, 0.80, 0, 0, 0.7, 0.1},
+                                                    {2, 0.35, 0, 0, 2.75, 1, 0.3, 0.1},
+                                                    {2, 0.35, 0.2, 0.40, 2.75, 1, 0.3, 0.1}}};
+  require(number >= 1 && number <= 6, "case", number, "1 to 6");
+  return cases[static_cast<std::size_t>(number - 1)];
 }
 
 DistributionSplash::DistributionSplash(const Parameters& parameters, Balance balance)
@@ -44,9 +41,7 @@ DistributionSplash::DistributionSplash(const Parameters& parameters, Balance bal
              {"restitution", p.restitution},
              {"conversion", p.conversion}};
   for (const auto& one : all)
-    if (!(one.value >= 0) || !std::isfinite(one.value))
-      throw Error(std::string("distribution splash: ") + one.name + " is " + std::to_string(one.value) +
-                  ", must be finite and not negative");
+    require(one.value >= 0 && std::isfinite(one.value), one.name, one.value, "finite and not negative");
 }
 
 double DistributionSplash::mean_rebounds(const Impact& impact) const {

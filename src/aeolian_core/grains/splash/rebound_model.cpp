@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "aeolian_core/grains/splash/bed_view.hpp"
 #include "aeolian_core/grains/splash/unit_vector.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-void require(bool allowed, const char* name, double value, const char* range) {
-  if (allowed) return;
-  std::ostringstream text;
-  text << "rebound model: " << name << " is " << value << ", must be " << range;
-  throw Error(text.str());
-}
+constexpr Require require{"rebound model"};
 
 ReboundModel::Parameters checked(const ReboundModel::Parameters& p) {
   require(p.restitution >= 0 && p.restitution <= 1, "restitution", p.restitution, "0 to 1");

@@ -1,32 +1,43 @@
 #include "aeolian_core/grains/splash/splash.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "aeolian_core/grains/splash/reptation.hpp"
-#include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
 double mass(double size_ratio) { return size_ratio * size_ratio * size_ratio; }
 
-[[noreturn]] void refuse(const char* property, double value, const char* range) {
-  std::ostringstream text;
-  text << "impact: " << property << " is " << value << ", must be " << range;
-  throw Error(text.str());
-}
+constexpr Require require{"impact"};
 
 }  // namespace
 
 void check(const Impact& impact) {
-  if (!(impact.speed > 0) || !std::isfinite(impact.speed))
-    refuse("speed", impact.speed, "positive and finite [m/s]");
-  if (!(impact.angle_to_bed() > 0 && impact.angle_to_bed() < M_PI))
-    refuse("angle to the bed", impact.angle_to_bed(), "between 0 and pi [rad]");
-  if (!(std::abs(impact.slope) < M_PI / 2)) refuse("slope", impact.slope, "between -pi/2 and pi/2 [rad]");
-  if (!(impact.size_ratio > 0) || !std::isfinite(impact.size_ratio))
-    refuse("size ratio", impact.size_ratio, "positive and finite");
+  require(impact.speed > 0 && std::isfinite(impact.speed), "speed", impact.speed,
+          "positive and finite [m/s]");
+  require(impact.angle_to_bed() > 0 && impact.angle_to_bed() < M_PI, "angle to the bed",
+          impact.angle_to_bed(), "between 0 and pi [rad]");
+  require(std::abs(impact.slope) < M_PI / 2, "slope", impact.slope, "between -pi/2 and pi/2 [rad]");
+  require(impact.size_ratio > 0 && std::isfinite(impact.size_ratio), "size ratio", impact.size_ratio,
+          "positive and finite");
+}
+
+const char* name_of(Origin origin) {
+  switch (origin) {
+    case Origin::rebound:
+      return "rebound";
+    case Origin::target:
+      return "target";
+    case Origin::brink:
+      return "brink";
+    case Origin::anti_brink:
+      return "anti_brink";
+    case Origin::other:
+      break;
+  }
+  return "other";
 }
 
 double kinetic_energy(const SplashEvent& event) {

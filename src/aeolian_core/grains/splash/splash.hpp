@@ -35,6 +35,10 @@ enum class Origin {
   anti_brink,  ///< beside a step that rises in it
   other,
 };
+/// As files have it: "anti_brink".
+const char* name_of(Origin origin);
+/// Of the bed's own grains.
+inline constexpr Origin ejecta_origins[] = {Origin::target, Origin::brink, Origin::anti_brink, Origin::other};
 
 /// A grain that leaves the bed.
 struct LeavingGrain {

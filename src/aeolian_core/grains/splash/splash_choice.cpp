@@ -53,10 +53,10 @@ SplashMaterial splash_material(const std::string& name) {
   SplashMaterial snow = sand("snow", 0.0002);
   snow.grain.density = 910;
   snow.source =
-      "all numbers of sand: a loose snow surface answers impacts much as sand does (Nishimura, Sugiura and "
-      "Maeno, velocity and angle distributions of drifting snow particles near the loose snow surface); "
-      "without "
-      "cohesion";
+      "all numbers of sand: a loose snow surface answers impacts much as sand does, with vertical "
+      "restitutions of 1.5 to 2.3 at friction velocities of 0.15 to 0.39 m/s (Nishimura, Sugiura and Maeno, "
+      "velocity and angle distributions of drifting snow particles near the loose snow surface, abstract); "
+      "without cohesion";
   return snow;
 }
 

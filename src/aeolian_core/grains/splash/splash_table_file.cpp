@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "aeolian_core/grains/splash/splash_table.hpp"
@@ -20,14 +22,6 @@ constexpr const char* legend =
     "# captured: an event whose grain stayed\n"
     "# target|brink|anti_brink|other,along,across,away,size_ratio,distance: a grain that the event ejected;\n"
     "#   velocity over sqrt(g d), distance along the bed in grain diameters\n";
-
-const std::map<Origin, std::string>& names() {
-  static const std::map<Origin, std::string> all{{Origin::target, "target"},
-                                                 {Origin::brink, "brink"},
-                                                 {Origin::anti_brink, "anti_brink"},
-                                                 {Origin::other, "other"}};
-  return all;
-}
 
 /// The lines of a table's file, of which it tells where they stand.
 class Lines {
@@ -126,7 +120,7 @@ void append_row(std::string& text, const std::string& kind, std::initializer_lis
 }
 
 void append_row(std::string& text, const SplashTable::Ejectum& grain) {
-  text += names().at(grain.origin);
+  text += name_of(grain.origin);
   for (const float value : {grain.along, grain.across, grain.away, grain.size_ratio, grain.distance}) {
     text += ',';
     append_number(text, value);
@@ -205,10 +199,9 @@ SplashTable SplashTable::read(const std::string& path) {
       ++events;
       continue;
     }
-    Origin origin = Origin::rebound;
-    for (const auto& [value, name] : names())
-      if (name == kind) origin = value;
-    if (origin == Origin::rebound)
+    const auto* const origin = std::find_if(std::begin(ejecta_origins), std::end(ejecta_origins),
+                                            [&kind](Origin one) { return kind == name_of(one); });
+    if (origin == std::end(ejecta_origins))
       lines.fail("row begins with '" + kind +
                  "', must be node, rebound, captured, target, brink, anti_brink or other");
     if (node.events.empty()) lines.fail("'" + kind + "' before the node's first event");
@@ -218,7 +211,7 @@ SplashTable SplashTable::read(const std::string& path) {
     };
     node.ejecta.push_back({value(1, "velocity along", -far, far), value(2, "velocity across", -far, far),
                            value(3, "velocity away", -far, far), value(4, "size ratio", 1e-3, 1e3),
-                           value(5, "distance", -far, far), origin});
+                           value(5, "distance", -far, far), *origin});
     ++ejecta;
   }
   node_is_whole();

@@ -1,5 +1,6 @@
 #include "aeolian_core/grains/impacts/bed_packing.hpp"
 
+#include "../../../error_of.hpp"
 #include "small_bed.hpp"
 #include <gtest/gtest.h>
 
@@ -91,13 +92,8 @@ TEST(BedPacking, SeedDecidesAll) {
 }
 
 TEST(BedPacking, RefusesWhatCannotBe) {
-  const auto message = [](const BedRecipe& recipe) -> std::string {
-    try {
-      make_bed(recipe, soft_discs(), 1);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [](const BedRecipe& recipe) {
+    return error_of([&] { make_bed(recipe, soft_discs(), 1); });
   };
   BedRecipe recipe = small_recipe();
   recipe.radius = 0;

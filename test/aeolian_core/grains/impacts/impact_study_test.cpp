@@ -56,10 +56,29 @@ TEST(ImpactStudy, ALongerSeriesBeginsWithTheShorterOne) {
 TEST(ImpactStudy, StopsAndKeepsWhatIsDone) {
   std::atomic<bool> stop{false};
   const auto outcomes = fire_series<2>(
-      beds(), short_series(500), {}, [&](int done) { stop = done >= 3; }, &stop);
+      beds(), short_series(500), {}, [&](const ImpactOutcome&, int over) { stop = over >= 3; }, &stop);
   EXPECT_GE(outcomes.size(), 3U);
   EXPECT_LE(outcomes.size(), 40U);
   for (const ImpactOutcome& outcome : outcomes) EXPECT_TRUE(outcome.contact);
+}
+
+TEST(ImpactStudy, TakesOverWhatIsKnown) {
+  const auto all = fire_series(beds(), short_series(5), {});
+  std::vector<ImpactOutcome> known = {all[3], all[1]};
+  known[0].steps = -1;  // none that is fired has this
+  int fired = 0;
+  const auto count = [&](const ImpactOutcome& outcome, int over) {
+    EXPECT_NE(outcome.number, 1);
+    EXPECT_NE(outcome.number, 3);
+    EXPECT_EQ(over, 2 + ++fired);
+  };
+  const auto outcomes = fire_series(beds(), short_series(5), {}, count, nullptr, known);
+  EXPECT_EQ(fired, 3);
+  ASSERT_EQ(outcomes.size(), 5U);
+  EXPECT_EQ(outcomes[3].steps, -1);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(outcomes[i].shot.along, all[i].shot.along);
+  // A shorter series has fewer of them.
+  EXPECT_EQ(fire_series(beds(), short_series(2), {}, {}, nullptr, known).size(), 2U);
 }
 
 TEST(ImpactStudy, NeedsABed) { EXPECT_THROW(fire_series<2>({}, short_series(1), {}), Error); }

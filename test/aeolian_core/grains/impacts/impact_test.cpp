@@ -1,9 +1,8 @@
 #include "aeolian_core/grains/impacts/impact.hpp"
 
+#include "../../../error_of.hpp"
 #include "small_bed.hpp"
 #include <gtest/gtest.h>
-
-#include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
@@ -140,14 +139,7 @@ TEST(Impact, SplashEventIsOfTheBedsTop) {
 }
 
 TEST(Impact, RefusesShotsThatCannotBe) {
-  const auto message = [](Shot shot) -> std::string {
-    try {
-      fire(loose_bed(), shot, {});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto message = [](const Shot& shot) { return error_of([&] { fire(loose_bed(), shot, {}); }); };
   Shot shot = grazing();
   shot.speed = 0;
   EXPECT_EQ(message(shot), "shot: speed is 0, must be positive");

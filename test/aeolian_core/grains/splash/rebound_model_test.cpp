@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
@@ -121,12 +122,7 @@ TEST(ReboundModelTest, refusals_name_parameter_and_value) {
   const auto refusal = [](void (*change)(ReboundModel::Parameters&)) {
     ReboundModel::Parameters p;
     change(p);
-    try {
-      ReboundModel model(p);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of([&] { ReboundModel model(p); });
   };
   EXPECT_EQ(refusal([](auto& p) { p.restitution = 1.5; }),
             "rebound model: restitution is 1.5, must be 0 to 1");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/splash/beladjine.hpp"
@@ -59,12 +60,7 @@ TEST(SplashFunctionsTest, bad_impacts_are_refused_by_name) {
   const auto splash = splash_of("kok_renno", "fine_sand");
   const auto refusal = [&](const Impact& impact) {
     RandomStream random(1, 1);
-    try {
-      splash->sample(impact, random);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of([&] { splash->sample(impact, random); });
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double speed : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
@@ -80,12 +76,8 @@ TEST(SplashFunctionsTest, bad_impacts_are_refused_by_name) {
 }
 
 TEST(SplashFunctionsTest, unknown_names_are_refused_with_those_there_are) {
-  try {
-    splash_of("owen", "fine_sand");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("splash is 'owen', must be one of werner, "), std::string::npos);
-  }
+  const std::string told = error_of([] { splash_of("owen", "fine_sand"); });
+  EXPECT_NE(told.find("splash is 'owen', must be one of werner, "), std::string::npos) << told;
   EXPECT_THROW(splash_of("distribution_7", "fine_sand"), Error);
   EXPECT_THROW(splash_of("werner", "gravel"), Error);
   EXPECT_THROW(ComposedSplash(nullptr, nullptr), Error);

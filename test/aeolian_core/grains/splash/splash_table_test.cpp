@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <set>
 #include <sstream>
 
+#include "../../../error_of.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -53,15 +53,6 @@ SplashTableSource source() { return {"a command --with flags", "sand, 0.25 mm", 
 
 std::shared_ptr<const SplashTable> table() {
   return std::make_shared<SplashTable>(SplashTable::build(cases(), Grain{}.diameter, source()));
-}
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 struct File {
@@ -219,28 +210,29 @@ TEST(SplashTableTest, files_read_back_to_the_same_draws) {
 TEST(SplashTableTest, a_node_without_events_is_named) {
   std::vector<SplashCase> holed = cases();
   holed.pop_back();
-  EXPECT_EQ(refusal([&] { SplashTable::build(holed, Grain{}.diameter, source()); }),
+  EXPECT_EQ(error_of([&] { SplashTable::build(holed, Grain{}.diameter, source()); }),
             "splash table: there are no events at speed 100 sqrt(g d), angle 20 degrees, size ratio 1, "
             "roughness 0, must be some at every node of the grid");
-  EXPECT_NE(refusal([&] { SplashTable::build({}, Grain{}.diameter, source()); }).find("no nodes"),
+  EXPECT_NE(error_of([&] { SplashTable::build({}, Grain{}.diameter, source()); }).find("no nodes"),
             std::string::npos);
 }
 
 TEST(SplashTableTest, bad_builds_are_refused) {
-  EXPECT_NE(refusal([] { SplashTable::build(cases(), 0, source()); }).find("diameter is 0"),
+  EXPECT_NE(error_of([] { SplashTable::build(cases(), 0, source()); }).find("diameter is 0"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(error_of([] {
               SplashTable::build(cases(), 1e-3, {"a", "b", 1.5});
             }).find("1.5"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(error_of([] {
               SplashTable::build(cases(), 1e-3, {"a\nb", "c", 1});
             }).find("one line"),
             std::string::npos);
   std::vector<SplashCase> fast = cases();
   fast[0].events[0].rebound->velocity *= 3;
-  EXPECT_NE(refusal([&] { SplashTable::build(fast, Grain{}.diameter, source()); }).find("must not be faster"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of([&] { SplashTable::build(fast, Grain{}.diameter, source()); }).find("must not be faster"),
+      std::string::npos);
   EXPECT_THROW(TabulatedSplash(nullptr, Grain{}), Error);
 }
 
@@ -265,11 +257,11 @@ TEST(SplashTableTest, bad_files_are_refused_with_file_line_and_value) {
     const File file;
     table()->write(file.path);
     file.replace(one.from, one.to);
-    const std::string told = refusal([&] { SplashTable::read(file.path); });
+    const std::string told = error_of([&] { SplashTable::read(file.path); });
     EXPECT_EQ(told.find(file.path), 0U) << told;
     EXPECT_NE(told.find(one.told), std::string::npos) << told << "\n" << file.text();
   }
-  EXPECT_NE(refusal([] { SplashTable::read("/nonexistent/table.csv"); }).find("/nonexistent/table.csv"),
+  EXPECT_NE(error_of([] { SplashTable::read("/nonexistent/table.csv"); }).find("/nonexistent/table.csv"),
             std::string::npos);
 }
 
