@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace aeolian {
+
+/// What lies buried in each cell: strata of one thickness, the newest on top, and how much of each is coarse.
+/// A fixed number is remembered one by one; what is older is one well-mixed deposit beneath them, and below
+/// that lies sand of the bulk composition without end. Nothing is lost: what is buried comes back.
+class Strata {
+ public:
+  Strata() = default;
+  /// `thickness` [m], `bulk`: volume fraction of coarse grains.
+  Strata(std::size_t cells, int remembered, double thickness, double bulk);
+
+  int remembered() const { return remembered_; }
+  double thickness() const { return thickness_; }
+  double bulk() const { return bulk_; }
+
+  /// Lays a full stratum with so much coarse sand [m] on a cell.
+  void bury(std::size_t cell, float coarse);
+  /// Takes the uppermost stratum of a cell away; its coarse sand [m].
+  double unearth(std::size_t cell);
+  /// Fraction of coarse grains in the stratum that is k-th from above.
+  double fraction(std::size_t cell, int k) const;
+
+  /// Coarse sand [m] by which all that was ever buried here and is still there exceeds the bulk's.
+  double excess(std::size_t cell) const;
+
+ private:
+  std::size_t slot(std::size_t cell, int k) const;
+
+  int remembered_ = 0;
+  double thickness_ = 0;
+  double bulk_ = 0;
+  std::vector<float> coarse_;                ///< [m], a ring for each cell
+  std::vector<std::uint8_t> newest_, many_;  ///< place in the ring; strata in it
+  std::vector<double> deep_, deep_coarse_;   ///< the mixed deposit beneath [m]
+};
+
+}  // namespace aeolian
