@@ -71,7 +71,8 @@ bool SortedAvalanches::steep(const FrameField& height, int station, int patch) c
 double SortedAvalanches::relax(FrameField& height, ActiveLayer& layer, int station, int patch) {
   const int begin = patch * patch_rows;
   const int end = std::min(begin + patch_rows, rows_);
-  const int pairs_end = end == rows_ && !periodic_ ? end - 1 : end;
+  const bool last = end == rows_;
+  const int pairs_end = last ? end - 1 : end;
   const int behind = next(station);
   double sum = 0;
   const auto move = [&](int i, int row, int j, int other, double amount) {
@@ -87,22 +88,26 @@ double SortedAvalanches::relax(FrameField& height, ActiveLayer& layer, int stati
     const double amount = slide(height.at(i)[row] - height.at(j)[other], straight, 0.5);
     if (amount != 0) move(i, row, j, other, amount);
   };
-  const auto ahead = [&](int row) { return row + 1 < rows_ ? row + 1 : 0; };
   if (behind != station) {
     for (int row = begin; row < end; ++row) exchange(station, row, behind, row, straight_);
     for (int row = begin; row < pairs_end; ++row)
-      exchange(station, row, behind, ahead(row), straight_ * diagonal);
+      exchange(station, row, behind, row + 1, straight_ * diagonal);
     for (int row = begin; row < pairs_end; ++row)
-      exchange(station, ahead(row), behind, row, straight_ * diagonal);
+      exchange(station, row + 1, behind, row, straight_ * diagonal);
   }
   // All at once, hence only a third.
   std::array<double, patch_rows> amount{};
   for (int row = begin; row < pairs_end; ++row)
     amount[static_cast<std::size_t>(row - begin)] =
-        slide(height.at(station)[row] - height.at(station)[ahead(row)], straight_, 1.0 / 3);
+        slide(height.at(station)[row] - height.at(station)[row + 1], straight_, 1.0 / 3);
   for (int row = begin; row < pairs_end; ++row)
     if (const double a = amount[static_cast<std::size_t>(row - begin)]; a != 0)
-      move(station, row, station, ahead(row), a);
+      move(station, row, station, row + 1, a);
+  if (last && periodic_) {
+    exchange(station, end - 1, station, 0, straight_);
+    exchange(station, end - 1, behind, 0, straight_ * diagonal);
+    exchange(station, 0, behind, end - 1, straight_ * diagonal);
+  }
   return sum;
 }
 
