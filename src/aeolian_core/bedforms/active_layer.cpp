@@ -17,11 +17,7 @@ constexpr double least_part = 1e-6;
 
 AEOLIAN_KERNEL void mixture(std::ptrdiff_t count, const double* __restrict thickness,
                             const double* __restrict coarse, double* __restrict fraction) {
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double f = coarse[i] / thickness[i];
-    const double positive = f > 0 ? f : 0;
-    fraction[i] = positive < 1 ? positive : 1;
-  }
+  for (std::ptrdiff_t i = 0; i < count; ++i) fraction[i] = coarse_part(coarse[i], thickness[i]);
 }
 
 /// Exchange with the stratum below. Cells whose stratum would be full or used up are left as they are and
@@ -44,9 +40,7 @@ AEOLIAN_KERNEL std::int64_t exchange(std::ptrdiff_t count, double nominal, doubl
     coarse[i] = c;
     upper[i] = fits ? after : upper[i];
     upper_coarse[i] = fits ? upper_coarse[i] + moved : upper_coarse[i];
-    const double f = c / thickness[i];
-    const double positive = f > 0 ? f : 0;
-    fraction[i] = positive < 1 ? positive : 1;
+    fraction[i] = coarse_part(c, thickness[i]);
   }
   return left;
 }

@@ -2,8 +2,16 @@
 
 #include "aeolian_core/bedforms/sorted_bed.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
+
+/// The part of a layer that is coarse, 0 to 1.
+AEOLIAN_INLINE double coarse_part(double coarse, double thickness) {
+  const double part = coarse / thickness;
+  const double positive = part > 0 ? part : 0;
+  return positive < 1 ? positive : 1;
+}
 
 /// The active layer of a bed in a wind frame: all that moves comes from it and comes to rest in it, well
 /// mixed. While sand moves its thickness changes with the bed's height; settle() then gives what is too much

@@ -27,7 +27,7 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, const Step& given, const double
                            const double* __restrict coarse_struck, const double* __restrict fine,
                            const double* __restrict coarse, double* __restrict bed,
                            double* __restrict thickness, double* __restrict layer_coarse,
-                           const double* __restrict fraction, double* __restrict activity,
+                           double* __restrict fraction, double* __restrict activity,
                            double* __restrict fine_eroded, double* __restrict coarse_eroded,
                            double* __restrict strongest) {
   const Step s = given;
@@ -42,6 +42,7 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, const Step& given, const double
     bed[i] += change;
     thickness[i] += change;
     layer_coarse[i] += coarse_change;
+    fraction[i] = coarse_part(layer_coarse[i], thickness[i]);
     const double active = fine[i] + s.coarse_hop_ratio * coarse[i];
     activity[i] = active > 0 ? active : 0;
     fine_eroded[i] += fine_lost;
@@ -87,7 +88,7 @@ SortedLaidDown lay_down(const WindFrame& frame, const SortedSweep& sweep,
     std::vector<double> strongest(count);
     for (int i = begin; i < end; ++i) {
       const double upper = frame.place(i).upper;
-      const double* const fraction = layer.fraction().at(i);
+      double* const fraction = layer.fraction().at(i);
       if (!periodic)
         // The share of the outermost lines that falls beside the grid has crossed its border.
         for (std::size_t s = 0; s < sizes; ++s) {
@@ -101,7 +102,7 @@ SortedLaidDown lay_down(const WindFrame& frame, const SortedSweep& sweep,
              sweep.struck()[1].at(i), deposition[0].at(i - from[0]), deposition[1].at(i - from[1]), bed.at(i),
              layer.thickness().at(i), layer.coarse().at(i), fraction, activity.at(i), eroded[0].data(),
              eroded[1].data(), strongest.data());
-      layer.mix(i);
+      layer.fraction().fill_pads(i, periodic);
       bed.fill_pads(i, periodic);
       activity.fill_pads(i, periodic);
     }

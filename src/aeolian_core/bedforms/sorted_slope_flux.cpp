@@ -81,11 +81,13 @@ AEOLIAN_KERNEL std::int64_t exchange(std::ptrdiff_t count, double gain, Rows z, 
 
 AEOLIAN_KERNEL void apply(std::ptrdiff_t count, const double* __restrict change,
                           const double* __restrict coarse_change, double* __restrict height,
-                          double* __restrict thickness, double* __restrict coarse) {
+                          double* __restrict thickness, double* __restrict coarse,
+                          double* __restrict fraction) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     height[i] += change[i];
     thickness[i] += change[i];
     coarse[i] += coarse_change[i];
+    fraction[i] = coarse_part(coarse[i], thickness[i]);
   }
 }
 
@@ -182,9 +184,9 @@ void SortedSlopeFlux::run(const FrameField& activity, double strongest_activity,
   }
   for_stations([&](int i, auto&&) {
     apply(rows, change_.at(i), coarse_change_.at(i), height.at(i), layer.thickness().at(i),
-          layer.coarse().at(i));
+          layer.coarse().at(i), layer.fraction().at(i));
     height.fill_pads(i, frame_.periodic());
-    layer.mix(i);
+    layer.fraction().fill_pads(i, frame_.periodic());
   });
 }
 

@@ -15,7 +15,8 @@ Strata::Strata(std::size_t cells, int remembered, double thickness, double bulk)
       deep_coarse_(cells) {}
 
 std::size_t Strata::slot(std::size_t cell, int k) const {
-  const int place = (newest_[cell] + remembered_ - k) % remembered_;
+  const int ahead = newest_[cell] - k;
+  const int place = ahead < 0 ? ahead + remembered_ : ahead;
   return cell * static_cast<std::size_t>(remembered_) + static_cast<std::size_t>(place);
 }
 
@@ -25,7 +26,7 @@ void Strata::bury(std::size_t cell, float coarse) {
     deep_coarse_[cell] += static_cast<double>(coarse_[slot(cell, remembered_ - 1)]);
     --many_[cell];
   }
-  newest_[cell] = static_cast<std::uint8_t>((newest_[cell] + 1) % remembered_);
+  newest_[cell] = static_cast<std::uint8_t>(newest_[cell] + 1 < remembered_ ? newest_[cell] + 1 : 0);
   ++many_[cell];
   coarse_[slot(cell, 0)] = coarse;
 }
@@ -33,7 +34,7 @@ void Strata::bury(std::size_t cell, float coarse) {
 double Strata::unearth(std::size_t cell) {
   if (many_[cell] > 0) {
     const auto coarse = static_cast<double>(coarse_[slot(cell, 0)]);
-    newest_[cell] = static_cast<std::uint8_t>((newest_[cell] + remembered_ - 1) % remembered_);
+    newest_[cell] = static_cast<std::uint8_t>(newest_[cell] > 0 ? newest_[cell] - 1 : remembered_ - 1);
     --many_[cell];
     return coarse;
   }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "aeolian_core/bedforms/frame_field.hpp"
+
 namespace aeolian {
 
 /// What lies buried in each cell: strata of one thickness, the newest on top, and how much of each is coarse.
