@@ -61,7 +61,8 @@ void sorted_ripples(benchmark::State& state) {
   const Forcing forcing = wind(static_cast<double>(state.range(0)) * M_PI / 180);
   SortedRippleParameters p;
   p.coarse_diameter = static_cast<double>(state.range(2)) * forcing.grain.diameter;
-  p.active_layer = 0.002 / p.coarse_diameter;  // no thinner than the steps ask for
+  p.active_layer = 0.004 / p.coarse_diameter;  // so thick that it does not shorten steps
+  p.stratum = 0.0008 / p.coarse_diameter;
   const std::vector<double>& h = start(g, static_cast<Bed>(state.range(1)));
   const double one_size = best_time([&] {
     std::vector<double> height = h;

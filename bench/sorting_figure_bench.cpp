@@ -18,6 +18,7 @@ namespace {
 
 constexpr double minutes = 20;
 constexpr double mm = 1e-3;
+constexpr int shown = 300;  ///< cells
 
 SortedBed grown_bed() {
   const GridGeometry g(0, 0, 1 * mm, 480, 96);
@@ -40,7 +41,7 @@ void draw_section(const std::string& path) {
   const double bottom = *low - 4 * mm;
   const double top = *high + 1.5 * mm;
   Curve surface, fraction;
-  for (int x = 0; x < g.nx(); ++x) {
+  for (int x = 0; x < shown; ++x) {
     const std::size_t cell = g.index(x, y);
     surface.x.push_back(g.x(x) / mm);
     surface.y.push_back(bed.height[cell] / mm);
@@ -54,14 +55,14 @@ void draw_section(const std::string& path) {
   // Columns of equal fraction are one box each.
   constexpr double dz = 0.1 * mm;
   script << "$section << EOD\n";
-  for (int x = 0; x < g.nx(); ++x) {
+  for (int x = 0; x < shown; ++x) {
     const std::size_t cell = g.index(x, y);
     const double h = bed.height[cell];
     double from = bottom;
     double last = bed.fraction_at(cell, h - bottom);
     for (double z = bottom; z < h + dz; z += dz) {
       const double now = z < h ? bed.fraction_at(cell, h - z) : 2;
-      if (std::abs(now - last) < 0.01) continue;
+      if (std::abs(now - last) < 0.02) continue;
       script << fmt::format("{:.1f} {:.2f} {:.2f} {:.1f}\n", g.x(x) / mm, from / mm, std::min(z, h) / mm,
                             100 * last);
       from = z;
@@ -69,8 +70,8 @@ void draw_section(const std::string& path) {
     }
   }
   script << "EOD\n"
-         << "set multiplot\nset lmargin at screen 0.07\nset rmargin at screen 0.9\nunset key\n"
-         << fmt::format("set xrange [0:{}]\n", g.length_x() / mm)
+         << "set multiplot\nset lmargin at screen 0.07\nset rmargin at screen 0.88\nunset key\n"
+         << fmt::format("set xrange [0:{}]\n", shown * g.cell() / mm)
          << "set tmargin at screen 0.92\nset bmargin at screen 0.46\n"
          << fmt::format("set yrange [{}:{}]\n", bottom / mm, top / mm)
          << "set ylabel 'height [mm]'\nset format x ''\nset ytics 4\n"

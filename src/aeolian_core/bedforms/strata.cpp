@@ -9,56 +9,50 @@ Strata::Strata(std::size_t cells, int remembered, double thickness, double bulk)
       thickness_(thickness),
       bulk_(bulk),
       coarse_(cells * static_cast<std::size_t>(remembered)),
-      newest_(cells),
-      many_(cells),
-      deep_(cells),
-      deep_coarse_(cells) {}
-
-std::size_t Strata::slot(std::size_t cell, int k) const {
-  const int ahead = newest_[cell] - k;
-  const int place = ahead < 0 ? ahead + remembered_ : ahead;
-  return cell * static_cast<std::size_t>(remembered_) + static_cast<std::size_t>(place);
-}
+      columns_(cells) {}
 
 void Strata::bury(std::size_t cell, float coarse) {
-  if (many_[cell] == remembered_) {
-    deep_[cell] += thickness_;
-    deep_coarse_[cell] += static_cast<double>(coarse_[slot(cell, remembered_ - 1)]);
-    --many_[cell];
+  Column& column = columns_[cell];
+  if (column.many == remembered_) {
+    column.deep += thickness_;
+    column.deep_coarse += static_cast<double>(coarse_[slot(cell, remembered_ - 1)]);
+    --column.many;
   }
-  newest_[cell] = static_cast<std::uint8_t>(newest_[cell] + 1 < remembered_ ? newest_[cell] + 1 : 0);
-  ++many_[cell];
+  column.newest = column.newest + 1 < remembered_ ? column.newest + 1 : 0;
+  ++column.many;
   coarse_[slot(cell, 0)] = coarse;
 }
 
 double Strata::unearth(std::size_t cell) {
-  if (many_[cell] > 0) {
+  Column& column = columns_[cell];
+  if (column.many > 0) {
     const auto coarse = static_cast<double>(coarse_[slot(cell, 0)]);
-    newest_[cell] = static_cast<std::uint8_t>(newest_[cell] > 0 ? newest_[cell] - 1 : remembered_ - 1);
-    --many_[cell];
+    column.newest = column.newest > 0 ? column.newest - 1 : remembered_ - 1;
+    --column.many;
     return coarse;
   }
-  if (deep_[cell] > thickness_) {
-    const double coarse = deep_coarse_[cell] * (thickness_ / deep_[cell]);
-    deep_[cell] -= thickness_;
-    deep_coarse_[cell] -= coarse;
+  if (column.deep > thickness_) {
+    const double coarse = column.deep_coarse * (thickness_ / column.deep);
+    column.deep -= thickness_;
+    column.deep_coarse -= coarse;
     return coarse;
   }
-  const double coarse = deep_coarse_[cell] + bulk_ * (thickness_ - deep_[cell]);
-  deep_[cell] = deep_coarse_[cell] = 0;
+  const double coarse = column.deep_coarse + bulk_ * (thickness_ - column.deep);
+  column.deep = column.deep_coarse = 0;
   return coarse;
 }
 
 double Strata::fraction(std::size_t cell, int k) const {
-  if (k < many_[cell]) return std::clamp(static_cast<double>(coarse_[slot(cell, k)]) / thickness_, 0.0, 1.0);
-  const double below = (k - many_[cell]) * thickness_;
-  return below < deep_[cell] ? deep_coarse_[cell] / deep_[cell] : bulk_;
+  const Column& column = columns_[cell];
+  if (k < column.many) return std::clamp(static_cast<double>(coarse_[slot(cell, k)]) / thickness_, 0.0, 1.0);
+  const double below = (k - column.many) * thickness_;
+  return below < column.deep ? column.deep_coarse / column.deep : bulk_;
 }
 
 double Strata::excess(std::size_t cell) const {
-  double sum = deep_coarse_[cell] - bulk_ * deep_[cell];
-  for (int k = 0; k < many_[cell]; ++k)
-    sum += static_cast<double>(coarse_[slot(cell, k)]) - bulk_ * thickness_;
+  const Column& column = columns_[cell];
+  double sum = column.deep_coarse - bulk_ * (column.deep + column.many * thickness_);
+  for (int k = 0; k < column.many; ++k) sum += static_cast<double>(coarse_[slot(cell, k)]);
   return sum;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "aeolian_core/bedforms/frame_field.hpp"
@@ -32,14 +31,23 @@ class Strata {
   double excess(std::size_t cell) const;
 
  private:
-  std::size_t slot(std::size_t cell, int k) const;
+  /// What is not in a cell's ring.
+  struct Column {
+    double deep = 0, deep_coarse = 0;  ///< the mixed deposit beneath [m]
+    int newest = 0;                    ///< place in the ring
+    int many = 0;                      ///< strata in it
+  };
+  std::size_t slot(std::size_t cell, int k) const {
+    const int ahead = columns_[cell].newest - k;
+    return cell * static_cast<std::size_t>(remembered_) +
+           static_cast<std::size_t>(ahead < 0 ? ahead + remembered_ : ahead);
+  }
 
   int remembered_ = 0;
   double thickness_ = 0;
   double bulk_ = 0;
-  std::vector<float> coarse_;                ///< [m], a ring for each cell
-  std::vector<std::uint8_t> newest_, many_;  ///< place in the ring; strata in it
-  std::vector<double> deep_, deep_coarse_;   ///< the mixed deposit beneath [m]
+  std::vector<float, LargePages<float>> coarse_;  ///< [m], a ring for each cell
+  std::vector<Column> columns_;
 };
 
 }  // namespace aeolian

@@ -38,6 +38,38 @@ double logistic(double v, double most, double rate, double time) {
   return most / (1 + (most / v - 1) * std::exp(-2 * rate * time));
 }
 
+/// The laws of a map's cells, by their composition in steps far finer than anyone knows it.
+class CellLaws {
+ public:
+  CellLaws(const HeightMap& map, const SortedForcing& forcing, const RippleParameters& ripples,
+           const RoughnessParameters& parameters)
+      : forcing_(forcing),
+        ripples_(ripples),
+        parameters_(parameters),
+        cell_(map.geometry().cell()),
+        fraction_(map.has(layer::coarse_fraction) ? &map.layer(layer::coarse_fraction) : nullptr),
+        laws_(steps + 1) {}
+
+  const RoughnessLaw& of(std::size_t cell) {
+    const double told = fraction_ ? static_cast<double>((*fraction_)[cell]) : 0;
+    const double part = std::isfinite(told) ? std::clamp(told, 0.0, 1.0) : 0;
+    const auto step = static_cast<std::size_t>(std::lround(steps * part));
+    RoughnessLaw& law = laws_[step];
+    if (law.grain == 0)
+      law = roughness_law(forcing_, static_cast<double>(step) / steps, cell_, ripples_, parameters_);
+    return law;
+  }
+
+ private:
+  static constexpr int steps = 1000;
+  const SortedForcing& forcing_;
+  const RippleParameters& ripples_;
+  const RoughnessParameters& parameters_;
+  double cell_;
+  const HeightMap::Layer* fraction_;
+  std::vector<RoughnessLaw> laws_;
+};
+
 }  // namespace
 
 double RoughnessLaw::after(double roughness, double duration) const {
@@ -79,11 +111,7 @@ void advance_roughness(HeightMap& map, const SortedForcing& forcing, double dura
   const HeightMap::Layer& elevation = map.layer(layer::elevation);
   if (!map.has(layer::roughness)) map.add(layer::roughness);
   HeightMap::Layer& roughness = map.layer(layer::roughness);
-  const HeightMap::Layer* const fraction =
-      map.has(layer::coarse_fraction) ? &map.layer(layer::coarse_fraction) : nullptr;
-  // Laws at steps of the fraction far finer than anyone knows it, as they are asked for.
-  constexpr int steps = 1000;
-  std::vector<RoughnessLaw> laws(steps + 1);
+  CellLaws laws(map, forcing, ripples, parameters);
   for (std::size_t i = 0; i < roughness.size(); ++i) {
     if (!std::isfinite(elevation[i])) {
       roughness[i] = HeightMap::unknown;
@@ -93,20 +121,32 @@ void advance_roughness(HeightMap& map, const SortedForcing& forcing, double dura
     if (before < 0)
       throw Error("roughness: cell " + std::to_string(i) + " is " + std::to_string(before) +
                   " m, must be zero or more");
-    const double part = fraction && std::isfinite((*fraction)[i]) ? static_cast<double>((*fraction)[i]) : 0;
-    const auto step = static_cast<std::size_t>(std::lround(steps * std::clamp(part, 0.0, 1.0)));
-    if (laws[step].grain == 0)
-      laws[step] = roughness_law(forcing, static_cast<double>(step) / steps, map.geometry().cell(), ripples,
-                                 parameters);
-    roughness[i] = static_cast<float>(laws[step].after(before, duration));
+    roughness[i] = static_cast<float>(laws.of(i).after(before, duration));
   }
 }
 
 double aerodynamic_roughness(double roughness, const RoughnessLaw& law) {
   const double grains = std::min(roughness, law.grain) / 30;
   if (roughness <= law.grain || !(law.wavelength > 0)) return grains;
-  const double height = 2 * std::sqrt(2.0) * roughness;
-  return std::max(grains, 0.5 * height * height / law.wavelength);
+  const double height_squared = 8 * (roughness * roughness - law.grain * law.grain);
+  return grains + 0.5 * height_squared / law.wavelength;
+}
+
+double aerodynamic_roughness(const HeightMap& map, const SortedForcing& forcing,
+                             const RippleParameters& ripples, const RoughnessParameters& parameters) {
+  check(forcing, 0);
+  const HeightMap::Layer& roughness = map.layer(layer::roughness);
+  CellLaws laws(map, forcing, ripples, parameters);
+  double sum = 0;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < roughness.size(); ++i) {
+    const auto r = static_cast<double>(roughness[i]);
+    if (!(r > 0)) continue;
+    sum += std::log(aerodynamic_roughness(r, laws.of(i)));
+    ++known;
+  }
+  if (known == 0) throw Error("roughness: no cell of the map has a roughness above zero");
+  return std::exp(sum / static_cast<double>(known));
 }
 
 }  // namespace aeolian

@@ -43,11 +43,17 @@ RoughnessLaw roughness_law(const SortedForcing& forcing, double coarse_fraction,
 void advance_roughness(HeightMap& map, const SortedForcing& forcing, double duration,
                        const RippleParameters& ripples, const RoughnessParameters& parameters = {});
 
-/// The aerodynamic roughness length [m] of a bed of rms roughness r: r / 30 up to the height of the grains
-/// (Nikuradse 1933: k_s / 30, with k_s of a mottled bed one grain, as SaltatingBed has it); what is higher
-/// is ripples of height H = 2 sqrt(2) r, 0.5 H^2 / wavelength (Lettau 1969: half the height times frontal
-/// over plan area), or the grains' if that is more. For a wind without saltating grains, and ridges apart
-/// enough not to shelter one another (H / wavelength below about 0.1).
+/// The aerodynamic roughness length [m] of a bed of rms roughness r: of its grains, r / 30 up to their height
+/// (Nikuradse 1933: k_s / 30, with k_s of a mottled bed one grain, as SaltatingBed has it), and of ripples of
+/// the variance beyond, of height H = sqrt(8 (r^2 - d^2)): 0.5 H^2 / wavelength (Lettau 1969: half the height
+/// times frontal over plan area). That both add up is an assumption. For a wind without saltating grains, and
+/// ridges apart enough not to shelter one another (H / wavelength below about 0.1).
 double aerodynamic_roughness(double roughness, const RoughnessLaw& law);
+
+/// The same for the layer `roughness` of a map as one number for the wind over all of it: the geometric mean
+/// of the cells that have any (Taylor 1987: neutral surface layers average ln z0). Throws Error where none
+/// has.
+double aerodynamic_roughness(const HeightMap& map, const SortedForcing& forcing,
+                             const RippleParameters& ripples, const RoughnessParameters& parameters = {});
 
 }  // namespace aeolian

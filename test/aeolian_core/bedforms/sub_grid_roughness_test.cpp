@@ -103,8 +103,13 @@ TEST(SubGridRoughnessTest, a_map_keeps_the_roughness_of_each_cell) {
   advance_roughness(map, sorted_forcing(calm, E::coarse_diameter), 1e4, RippleParameters{});
   EXPECT_EQ(map.layer(layer::roughness)[0], before[0]);
 
+  const double z0 = aerodynamic_roughness(map, E::forcing(), RippleParameters{});
+  EXPECT_NEAR(z0, std::sqrt(static_cast<double>(before[0]) * static_cast<double>(before[1])) / 30, 1e-9);
+
   map.layer(layer::roughness)[0] = -1;
   EXPECT_THROW(advance_roughness(map, E::forcing(), 1, RippleParameters{}), Error);
+  map.add(layer::roughness, 0.0F);
+  EXPECT_THROW(aerodynamic_roughness(map, E::forcing(), RippleParameters{}), Error);
 }
 
 TEST(SubGridRoughnessTest, the_wind_feels_grains_and_then_ripples) {
@@ -112,7 +117,8 @@ TEST(SubGridRoughnessTest, the_wind_feels_grains_and_then_ripples) {
   EXPECT_NEAR(aerodynamic_roughness(law.grain, law), law.grain / 30, 1e-12);
   // Lettau: half the height times the height over the spacing, for ridges across the wind.
   const double height = law.wavelength / 17;
-  EXPECT_NEAR(aerodynamic_roughness(law.ripples, law), 0.5 * height * height / law.wavelength, 1e-9);
+  const double ripples = aerodynamic_roughness(std::hypot(law.ripples, law.grain), law) - law.grain / 30;
+  EXPECT_NEAR(ripples, 0.5 * height * height / law.wavelength, 1e-9);
   double before = 0;
   for (double r = 0; r < law.ripples; r += law.ripples / 100) {
     EXPECT_GE(aerodynamic_roughness(r, law), before);
