@@ -20,10 +20,10 @@ void check(const SortedForcing& forcing, double duration);
 ///
 /// An impact shakes an area of bed that depends on the impact alone, so that the number of grains that it
 /// sets moving goes with 1 / d^2 (an assumption; Kok & Renno 2009, eq. 12, have 1 / d). It hands the bed a
-/// fixed part of its momentum (Kok & Renno 2009; Rice, Willetts & McEwan 1995 saw coarse grains leave
-/// slower), so speeds go with 1 / d and reptation lengths, which are ballistic, with 1 / d^2, but no grain
-/// hops less than its own diameter. Depth set moving goes with d, flux with 1 / d. For grains of one size
-/// both forcings are the same. Throws Error for a coarse diameter below the fine one.
+/// fixed part of its momentum (Kok & Renno 2009), so speeds go with 1 / d (that they fall with the size is in
+/// Feng, Li & Ni 2009) and reptation lengths, which are ballistic, with 1 / d^2, but no grain hops less than
+/// its own diameter. Depth set moving goes with d, flux with 1 / d. For grains of one size both forcings are
+/// the same. Throws Error for a coarse diameter below the fine one.
 SortedForcing sorted_forcing(const Forcing& fine, double coarse_diameter);
 
 /// The same for a steady wind of so much friction velocity [m/s]; see steady_saltation and MeanSplash.
