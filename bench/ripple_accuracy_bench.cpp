@@ -9,6 +9,7 @@ int main() {
   aeolian::AccuracyTable table;
   aeolian::theory_rows(table);
   aeolian::tracking_rows(table);
+  aeolian::sorting_rows(table);
   fmt::print(
       "# Accuracy of ripples\n\nPrinted by `./twin bench ripple_accuracy`. Targets are those of Werner "
       "(1987), "

@@ -6,8 +6,9 @@ namespace aeolian {
 
 /// The parts of docs/accuracy/ripples.md, each in its own file ripple_NAME_rows.cpp.
 /// @{
-void theory_rows(AccuracyTable& table);  ///< kinematics, worms, collisions, mergers, Haff's bed (rows 13-23)
+void theory_rows(AccuracyTable& table);    ///< kinematics, worms, collisions, mergers, Haff's bed (rows 13-23)
 void tracking_rows(AccuracyTable& table);  ///< events and shapes of grown ripples (rows 31, 32)
+void sorting_rows(AccuracyTable& table);   ///< two sizes of grains, roughness below the grid
 /// @}
 
 }  // namespace aeolian

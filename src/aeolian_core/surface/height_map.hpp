@@ -16,6 +16,9 @@ inline const std::string elevation = "elevation";  ///< [m]
 inline const std::string variance = "variance";    ///< of the elevation [m^2]
 inline const std::string ground = "ground";        ///< hard floor that the wind cannot move [m]
 inline const std::string age = "age";              ///< since the last change [s]
+inline const std::string coarse_fraction =
+    "coarse_fraction";                             ///< of the volume of the surface's grains, 0 to 1
+inline const std::string roughness = "roughness";  ///< rms height of what the cells do not resolve [m]
 }  // namespace layer
 
 /// A grid with named layers of floats, NaN where nothing is known.
