@@ -11,6 +11,7 @@
 #include "aeolian_core/bedforms/exposure.hpp"
 #include "aeolian_core/bedforms/haff_bed.hpp"
 #include "aeolian_core/bedforms/lattice_bed.hpp"
+#include "aeolian_core/bedforms/lattice_slice.hpp"
 #include "aeolian_core/bedforms/merger_theory.hpp"
 #include "aeolian_core/bedforms/periodic_profile.hpp"
 #include "aeolian_core/bedforms/ripple_collision.hpp"

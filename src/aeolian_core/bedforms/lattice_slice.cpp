@@ -103,8 +103,7 @@ LatticeSlice::LatticeSlice(const SliceParameters& parameters, const std::vector<
   start_.resize((static_cast<std::size_t>(period_) >> bucket_bits_) + 2, std::numeric_limits<int>::min());
   datum_ = heights[0];
   for (int i = 0; i < parameters.columns; ++i)
-    reach_.push_back((heights[static_cast<std::size_t>(i)] - datum_) * unit_ + fall_to(i) +
-                     over_top_);
+    reach_.push_back((heights[static_cast<std::size_t>(i)] - datum_) * unit_ + fall_to(i) + over_top_);
   reach_.resize(reach_.size() + block, std::numeric_limits<int>::max());
   find_starts();
 }
@@ -138,10 +137,12 @@ void LatticeSlice::find_starts() {
   const int repetitions = (*std::max_element(reach_.begin(), reach_.end() - block) - 1) / period_;
   std::size_t bucket = 1;
   int from = 0;  // of the intercepts of the bucket
-  for (int n = -repetitions; from < period_; ++n)
+  for (int n = -repetitions; n <= 0; ++n)
     for (int i = 0; i < parameters_.columns; ++i)
-      for (; from < std::min(period_, reach_[static_cast<std::size_t>(i)] + n * period_); from += 1 << bucket_bits_)
+      for (; from < std::min(period_, reach_[static_cast<std::size_t>(i)] + n * period_);
+           from += 1 << bucket_bits_)
         start_[bucket++] = n * parameters_.columns + i;
+  std::fill(start_.begin() + static_cast<std::ptrdiff_t>(bucket), start_.end(), parameters_.columns);
 }
 
 /// A column has come to reach farther.
@@ -156,7 +157,8 @@ AEOLIAN_INLINE void LatticeSlice::advance_starts(int column) {
 void LatticeSlice::advance_starts_around(int column) {
   for (int reach = reach_[static_cast<std::size_t>(column)]; reach > 0;
        reach -= period_, column -= parameters_.columns)
-    for (std::size_t bucket = std::min(static_cast<std::size_t>(reach >> bucket_bits_) + 1, start_.size() - 1);
+    for (std::size_t bucket =
+             std::min(static_cast<std::size_t>(reach >> bucket_bits_) + 1, start_.size() - 1);
          start_[bucket] > column; --bucket)
       start_[bucket] = column;
 }
