@@ -148,8 +148,8 @@ void LatticeSlice::find_starts() {
 /// A column has come to reach farther.
 AEOLIAN_INLINE void LatticeSlice::advance_starts(int column) {
   const int reach = reach_[static_cast<std::size_t>(column)];
-  auto bucket = static_cast<std::size_t>(reach >> bucket_bits_) + 1;
-  if (bucket + 1 >= start_.size()) return advance_starts_around(column);
+  auto bucket = static_cast<std::size_t>(reach >> bucket_bits_) + 1;  // far beyond all below 0
+  if (bucket >= start_.size() - 1) return advance_starts_around(column);
   for (; start_[bucket] > column; --bucket) start_[bucket] = column;
 }
 
@@ -173,7 +173,7 @@ AEOLIAN_INLINE LatticeSlice::Contact LatticeSlice::first_contact(int ray) const 
     if (column < columns) {
       if (ahead == block) continue;
       const bool upstream = ray < reach_[static_cast<std::size_t>(column)] - over_top_;
-      if (upstream || !steps_.rises(column)) return {column, upstream};
+      if (upstream || !steps_.rises(column)) return {column, ray, upstream};
       ++column;
     }
     if (column >= columns) {
@@ -204,7 +204,7 @@ AEOLIAN_INLINE void LatticeSlice::put(int pocket) {
 
 /// Draws the intercepts of the next points.
 AEOLIAN_KERNEL void LatticeSlice::draw_points() {
-  constexpr std::size_t blocks = std::tuple_size<decltype(points_)>::value / 4;
+  constexpr std::size_t blocks = batch / 4;
   const auto period = static_cast<std::uint64_t>(period_);
   for (std::size_t i = 0; i < blocks; ++i) {
     const Philox::Block words = philox_(drawn_ + i, stream_);
@@ -214,31 +214,50 @@ AEOLIAN_KERNEL void LatticeSlice::draw_points() {
   next_ = 0;
 }
 
+/// Whether a grain gone from a summit to a pocket may have changed a contact found before.
+AEOLIAN_INLINE bool LatticeSlice::disturbed(const Contact& contact, int summit, int pocket) const {
+  const int around = -static_cast<int>(pocket >= contact.column) & period_;  // without a branch
+  const int shadow = reach_[static_cast<std::size_t>(pocket)] - around;
+  return (contact.column == summit) | !contact.upstream | (shadow > contact.ray);
+}
+
+/// The contact of the next grain is sought while this one is on its way: neither waits for the other. It is
+/// sought again where the bed has changed under it.
 AEOLIAN_KERNEL void LatticeSlice::shoot_from(const int* point, const int* end) {
   const int forward = parameters_.forward % parameters_.columns;
   const int backward = parameters_.backward % parameters_.columns;
-  for (; point != end; ++point)
-    for (int hit = 0; hit < parameters_.hits_per_point; ++hit) {
-      const Contact contact = first_contact(*point);
-      counts_.backward += static_cast<int>(!contact.upstream);
-      const int summit = ejected(contact);
-      if (summit == StepRing::none) {
-        ++counts_.refused;
-        continue;
-      }
-      take(summit);
-      put(contact.upstream ? steps_.pocket_from(steps_.inside(summit + forward))
-                           : steps_.pocket_up_to(steps_.inside(summit - backward)));
+  const int hits = parameters_.hits_per_point;
+  int hit = 0;
+  Contact next = first_contact(*point);
+  while (point != end) {
+    const Contact contact = next;
+    if (++hit == hits) {
+      hit = 0;
+      ++point;
     }
+    const int ray = *point;
+    next = first_contact(ray);
+    counts_.backward += static_cast<int>(!contact.upstream);
+    const int summit = ejected(contact);
+    if (summit == StepRing::none) {
+      ++counts_.refused;
+      continue;
+    }
+    take(summit);
+    const int pocket = contact.upstream ? steps_.pocket_from(steps_.inside(summit + forward))
+                                        : steps_.pocket_up_to(steps_.inside(summit - backward));
+    put(pocket);
+    if (disturbed(next, summit, pocket)) next = first_contact(ray);
+  }
 }
 
 void LatticeSlice::shoot(std::int64_t points) {
   require(points >= 0, "number of points", static_cast<double>(points), "zero or more");
   while (points > 0) {
-    if (next_ == points_.size()) draw_points();
+    if (next_ == batch) draw_points();
     if (since_starts_ >= starts_hold * parameters_.columns) find_starts();
-    const auto count = static_cast<std::size_t>(
-        std::min<std::int64_t>(points, static_cast<std::int64_t>(points_.size() - next_)));
+    const auto count =
+        static_cast<std::size_t>(std::min<std::int64_t>(points, static_cast<std::int64_t>(batch - next_)));
     shoot_from(&points_[next_], &points_[next_] + count);
     next_ += count;
     points -= static_cast<std::int64_t>(count);

@@ -62,6 +62,7 @@ class LatticeSlice {
   /// Where a falling grain touches the bed.
   struct Contact {
     int column;
+    int ray;        ///< intercept of the grain's path, in that period of the bed
     bool upstream;  ///< side of the grain touched
   };
 
@@ -73,6 +74,7 @@ class LatticeSlice {
   void shoot_from(const int* point, const int* end);
   Contact first_contact(int ray) const;
   int ejected(const Contact& contact);
+  bool disturbed(const Contact& contact, int summit, int pocket) const;
   void take(int summit);
   void put(int pocket);
 
@@ -85,14 +87,15 @@ class LatticeSlice {
 
   // The falling grain's path is told by its intercept: how high above column 0 it would cross. A grain is
   // touched if the intercept is below the height of the grain plus what the path falls from column 0 to it.
-  int datum_ = 0;                 ///< intercepts are above this layer
-  int unit_ = 1 << 20;            ///< and in whole parts of a layer: so many
-  std::uint64_t drop_ = 0;        ///< of the path from column to column [2^-32 units]
-  int period_ = 0;                ///< and over the whole bed [units]
-  int over_top_ = 0;              ///< by which the downstream side of a summit reaches above the upstream one
-  std::vector<int> reach_;        ///< up to which intercept each column is touched; some more that always are
-  std::array<int, 64> points_{};  ///< intercepts drawn ahead
-  std::size_t next_ = points_.size();
+  int datum_ = 0;           ///< intercepts are above this layer
+  int unit_ = 1 << 20;      ///< and in whole parts of a layer: so many
+  std::uint64_t drop_ = 0;  ///< of the path from column to column [2^-32 units]
+  int period_ = 0;          ///< and over the whole bed [units]
+  int over_top_ = 0;        ///< by which the downstream side of a summit reaches above the upstream one
+  std::vector<int> reach_;  ///< up to which intercept each column is touched; some more that always are
+  static constexpr std::size_t batch = 64;
+  std::array<int, batch + 1> points_{};  ///< intercepts drawn ahead, and one to look at beyond them
+  std::size_t next_ = batch;
   std::uint64_t drawn_ = 0;  ///< blocks of random words
   int bucket_bits_ = 0;      ///< intercepts of one bucket agree but for so many bits
   std::vector<int> start_;   ///< per bucket: no column before this one is touched; columns go on below 0

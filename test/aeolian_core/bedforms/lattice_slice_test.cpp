@@ -182,6 +182,21 @@ TEST(LatticeSliceTest, both_ends_of_the_bed_are_joined) {
   EXPECT_EQ(bed.heights(), other.heights());
 }
 
+TEST(LatticeSliceTest, each_impact_sees_the_bed_as_the_last_one_left_it) {
+  // Shot one at a time, no contact is sought ahead.
+  for (const double angle : {0.02, 10 * degree, 70 * degree})
+    for (const int hits : {1, 3}) {
+      SliceParameters parameters = small(5);
+      parameters.impact_angle = angle;
+      parameters.hits_per_point = hits;
+      parameters.brink_share = hits == 1 ? 0 : 0.3;
+      LatticeSlice at_once(parameters, 6), singly(parameters, 6);
+      at_once.shoot(20000);
+      for (int i = 0; i < 20000; ++i) singly.shoot(1);
+      EXPECT_EQ(at_once.heights(), singly.heights()) << angle;
+    }
+}
+
 TEST(LatticeSliceTest, a_run_depends_on_its_seed_and_stream_only) {
   const SliceParameters parameters = small();
   LatticeSlice at_once(parameters, 5), in_parts(parameters, 5), other(parameters, 6),
