@@ -27,6 +27,13 @@ class LatticeBed {
   LatticeBed(int nx, int ny, double spacing, double angle_of_repose, std::uint64_t seed,
              double roughening = 1);
 
+  /// A bed over a periodic map of elevations [m], in the order of the geometry's cells, with so many columns
+  /// along each edge of a cell. Heights are in layers above the mean elevation: within two layers of the
+  /// surface, linear between the centres of cells, and of its volume to half a grain. Where the surface is
+  /// steeper than repose the bed is at repose. Throws Error naming what is not allowed.
+  static LatticeBed from_elevation(const GridGeometry& geometry, const std::vector<double>& elevation,
+                                   int columns_per_cell, double angle_of_repose, std::uint64_t seed);
+
   int nx() const { return nx_; }
   int ny() const { return ny_; }
   double spacing() const { return spacing_; }
@@ -52,7 +59,9 @@ class LatticeBed {
   struct Hop;
 
   std::int16_t& height(Column at);
+  Column anywhere();
   void roughen(double moves_per_column);
+  void settle(std::int64_t grains);
   template <bool up>
   Column walk(Column at);
   Path wind_path(double direction);

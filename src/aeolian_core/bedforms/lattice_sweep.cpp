@@ -105,15 +105,22 @@ LatticeBed::Column LatticeBed::walk(Column at) {
   }
 }
 
+LatticeBed::Column LatticeBed::anywhere() {
+  const int x = static_cast<int>(random_.uniform() * nx_);
+  return {x, static_cast<int>(random_.uniform() * ny_)};
+}
+
 void LatticeBed::roughen(double moves_per_column) {
-  const auto anywhere = [&] {
-    const int x = static_cast<int>(random_.uniform() * nx_);
-    return Column{x, static_cast<int>(random_.uniform() * ny_)};
-  };
   for (auto moves = static_cast<std::int64_t>(moves_per_column * nx_ * ny_); moves > 0; --moves) {
     height(walk<true>(anywhere())) -= 2;
     height(walk<false>(anywhere())) += 2;
   }
+}
+
+/// Lays grains down, or takes some away, at random places.
+void LatticeBed::settle(std::int64_t grains) {
+  for (; grains > 0; --grains) height(walk<false>(anywhere())) += 2;
+  for (; grains < 0; ++grains) height(walk<true>(anywhere())) -= 2;
 }
 
 void LatticeBed::eject(Column struck, const Hop& hop) {
