@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/ejection_draws.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
@@ -57,23 +58,29 @@ class LatticeBed {
   struct Column;
   struct Path;
   struct Hop;
+  struct Block;
 
-  std::int16_t& height(Column at);
+  std::size_t index(Column at) const;
+  void compare_neighbours();
+  template <int layers>
+  void change(Column at);
+  template <bool up>
+  Column walk(Column at, std::uint32_t& ways) const;
   Column anywhere();
   void roughen(double moves_per_column);
   void settle(std::int64_t grains);
-  template <bool up>
-  Column walk(Column at);
   Path wind_path(double direction);
   void sweep(const Path& path, double drop, double gap, const Hop& hop);
-  void eject(Column struck, const Hop& hop);
+  void eject(Column struck, const EjectionDraws::Draw& draw, const Hop& hop);
 
   int nx_;
   int ny_;
   double spacing_;
   double layer_;
   RandomStream random_;
+  EjectionDraws draws_;
   std::vector<std::int16_t> height_;
+  std::vector<std::uint8_t> higher_;  ///< which neighbours of a column are: east 1, west 2, north 4, south 8
   std::uint64_t ejections_ = 0;
 };
 

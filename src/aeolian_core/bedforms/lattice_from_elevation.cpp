@@ -112,6 +112,7 @@ LatticeBed LatticeBed::from_elevation(const GridGeometry& geometry, const std::v
       const double top = (surface.at(x, y) + filled.at(x, y)) / 2 + 1;
       *column = static_cast<std::int16_t>(2 * std::floor((top - parity) / 2) + parity);
     }
+  bed.compare_neighbours();
   bed.settle(std::llround((volume - static_cast<double>(bed.total())) / 2));
   return bed;
 }
