@@ -94,7 +94,7 @@ LatticeSlice::LatticeSlice(const SliceParameters& parameters, const std::vector<
   const double over_top =
       parameters.impact_angle < M_PI / 3 ? 2 / std::cos(parameters.impact_angle) - 2 : drop - 1;
   unit_ = 1 << 20;
-  while (unit_ * (parameters.columns * (drop + 1) + over_top) > std::numeric_limits<int>::max() / 4)
+  while (unit_ * (parameters.columns * (drop + 1) + over_top) > std::numeric_limits<int>::max() / 4.0)
     unit_ /= 2;
   drop_ = static_cast<std::uint64_t>(std::llround(drop * unit_ * 0x1p32));
   over_top_ = static_cast<int>(std::lround(over_top * unit_));
@@ -127,7 +127,8 @@ std::vector<double> LatticeSlice::elevation() const {
 }
 
 double LatticeSlice::ejections_per_surface_grain() const {
-  return 2.0 * static_cast<double>(counts_.ejections()) / parameters_.columns;
+  const int surface_grains = parameters_.columns / 2;
+  return static_cast<double>(counts_.ejections()) / surface_grains;
 }
 
 /// Finds the starts from the envelope, the highest reach of all columns before each.

@@ -74,7 +74,8 @@ struct LatticeBed::Path {
   std::vector<int> level_to;         ///< of each column: before this one the drift stays the same
 
   Column column(int line, int i) const {
-    int across = line + drift[static_cast<std::size_t>(i + count)];
+    const int in_drift = i + count;
+    int across = line + drift[static_cast<std::size_t>(in_drift)];
     if (across >= lines) across -= lines;
     const int on = i < 0 ? i + count : i;
     const int place = forward ? on : count - 1 - on;
@@ -150,7 +151,8 @@ struct LatticeBed::Block {
 
   AEOLIAN_INLINE Block(const LatticeBed& bed, const Path& path, int line, int from)
       : columns(std::min(block, path.count - from)) {
-    const auto at = static_cast<std::size_t>(from + path.count);
+    const int in_path = from + path.count;
+    const auto at = static_cast<std::size_t>(in_path);
     const auto begin = static_cast<std::uint32_t>(bed.index(path.column(line, from)));
     if (from + block <= path.level_to[at] && (from >= 0 || from + block <= 0)) {
       if (path.along_stride == 1) {

@@ -84,13 +84,13 @@ class StepRing {
   }
 
  private:
-  static constexpr int margin = 1;  ///< words of the other end that are kept at either end as well
+  static constexpr std::size_t margin = 1;  ///< words of the other end that are kept at either end as well
 
   static int first(std::uint64_t bits) { return __builtin_ctzll(bits); }
   /// Places before the last one of 64.
   static int last(std::uint64_t bits) { return __builtin_clzll(bits); }
 
-  static std::size_t bit(int at) { return static_cast<std::size_t>(at + 64 * margin); }
+  static std::size_t bit(int at) { return static_cast<std::size_t>(at) + 64 * margin; }
   std::uint64_t word(int at) const { return words_[bit(at) / 64]; }
   /// The steps of a place, in bit 0, and those after it.
   std::uint64_t from(int at) const {
