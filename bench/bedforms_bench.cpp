@@ -1,5 +1,5 @@
-/// How fast beds move: cell updates of the ripple model, ejections of the lattice bed, and the exposure
-/// kernel against the bandwidth of this machine's memory, measured in the same run.
+/// How fast beds move: cell updates of the ripple model, and the exposure kernel against the bandwidth of
+/// this machine's memory, measured in the same run.
 
 #include <algorithm>
 #include <cmath>
@@ -114,17 +114,6 @@ void sand_on_rock(benchmark::State& state) {
   state.counters["times_real_time"] = benchmark::Counter(200, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(sand_on_rock)->Arg(0)->Arg(5)->Arg(10)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
-
-/// A lattice of 1 m x 0.5 m at 0.8 mm that has no ripples yet; the argument is the wind's direction in
-/// degrees.
-void lattice_bed(benchmark::State& state) {
-  const Forcing forcing = wind(static_cast<double>(state.range(0)) * M_PI / 180);
-  LatticeBed bed(1250, 626, 0.0008, forcing.grain.angle_of_repose, 1);
-  for (auto _ : state) bed.advance(forcing, 2);
-  state.counters["ejections/s"] =
-      benchmark::Counter(static_cast<double>(bed.ejections()), benchmark::Counter::kIsRate);
-}
-BENCHMARK(lattice_bed)->Arg(0)->Arg(5)->Arg(90)->Unit(benchmark::kMillisecond);
 
 /// Exposure of rows that together fit no cache: it must read heights and write exposures, 16 bytes a cell.
 void exposure_kernel(benchmark::State& state) {

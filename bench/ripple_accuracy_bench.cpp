@@ -8,6 +8,7 @@
 int main() {
   aeolian::AccuracyTable table;
   aeolian::theory_rows(table);
+  aeolian::lattice_rows(table);
   aeolian::tracking_rows(table);
   aeolian::sorting_rows(table);
   fmt::print(

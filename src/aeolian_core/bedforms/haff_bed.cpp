@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "aeolian_core/surface/error.hpp"
 
@@ -34,8 +35,16 @@ void check(const HaffParameters& p) {
 }  // namespace
 
 HaffBed::HaffBed(const HaffParameters& parameters, std::uint64_t seed, std::uint64_t stream)
-    : parameters_(parameters), random_(seed, stream) {
+    : HaffBed(parameters, std::vector<int>(static_cast<std::size_t>(std::max(0, parameters.bins))), seed,
+              stream) {}
+
+HaffBed::HaffBed(const HaffParameters& parameters, std::vector<int> grains, std::uint64_t seed,
+                 std::uint64_t stream)
+    : parameters_(parameters), random_(seed, stream), grains_(std::move(grains)) {
   check(parameters);
+  if (grains_.size() != static_cast<std::size_t>(parameters.bins))
+    throw Error("Haff's bed: grains are given for " + std::to_string(grains_.size()) + " bins, must be for " +
+                std::to_string(parameters.bins));
   layer_ = 1 / parameters.bin_length;
   const double layers_per_slope = parameters.bin_length / layer_;
   drop_ = std::tan(parameters.impact_angle) * layers_per_slope;
@@ -43,7 +52,8 @@ HaffBed::HaffBed(const HaffParameters& parameters, std::uint64_t seed, std::uint
   steepest_ = static_cast<int>(std::tan(parameters.angle_of_repose) * layers_per_slope);
   rise_ = parameters.steepest_stoss ? std::tan(*parameters.steepest_stoss) * layers_per_slope
                                     : std::numeric_limits<double>::infinity();
-  grains_.assign(static_cast<std::size_t>(parameters.bins), 0);
+  for (int bin = 0; bin < parameters.bins; ++bin) relax(bin);
+  highest_ = *std::max_element(grains_.begin(), grains_.end());
 }
 
 std::vector<double> HaffBed::heights() const {
@@ -65,7 +75,9 @@ void HaffBed::advance(double impacts_per_diameter) {
   owed_ += impacts_per_diameter * length();
   for (; owed_ >= 1; owed_ -= 1, ++impacts_) {
     const int bin = struck();
-    if (may_leave(bin)) move(bin, wrapped(bin + hop_));
+    if (!may_leave(bin)) continue;
+    move(bin, wrapped(bin + hop_));
+    ++moved_;
   }
 }
 

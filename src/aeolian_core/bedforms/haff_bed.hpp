@@ -29,11 +29,15 @@ class HaffBed {
   /// A flat bed. Beds of one seed and different streams are independent. Throws Error naming the parameter
   /// that is not allowed.
   HaffBed(const HaffParameters& parameters, std::uint64_t seed, std::uint64_t stream = 0);
+  /// A bed with so many grains above (or below) an even bed in each bin. What is steeper than repose slides.
+  HaffBed(const HaffParameters& parameters, std::vector<int> grains, std::uint64_t seed,
+          std::uint64_t stream);
 
   /// Shoots so many grains per d of bed. Throws Error for a negative or infinite number.
   void advance(double impacts_per_diameter);
 
   std::int64_t impacts() const { return impacts_; }
+  std::int64_t moved() const { return moved_; }  ///< grains that impacts set down elsewhere
   double length() const { return parameters_.bin_length * parameters_.bins; }  ///< of the bed [d]
   const std::vector<int>& grains() const { return grains_; }  ///< of each bin, above the flat bed
   std::vector<double> heights() const;                        ///< of each bin [d], above the flat bed
@@ -54,6 +58,7 @@ class HaffBed {
   double rise_;      ///< of neighbours at the steepest stoss, in layers
   int highest_ = 0;  ///< no bin is higher
   std::int64_t impacts_ = 0;
+  std::int64_t moved_ = 0;
   double owed_ = 0;  ///< part of an impact not yet shot
   std::vector<int> grains_;
   std::vector<int> unstable_;

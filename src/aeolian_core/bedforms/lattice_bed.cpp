@@ -38,7 +38,12 @@ int wrap(int i, int n) { return ((i % n) + n) % n; }
 
 LatticeBed::LatticeBed(int nx, int ny, double spacing, double angle_of_repose, std::uint64_t seed,
                        double roughening)
-    : nx_(nx), ny_(ny), spacing_(spacing), layer_(spacing * std::tan(angle_of_repose)), random_(seed, 0) {
+    : nx_(nx),
+      ny_(ny),
+      spacing_(spacing),
+      layer_(spacing * std::tan(angle_of_repose)),
+      random_(seed, 0),
+      draws_(seed) {
   if (nx < 4 || ny < 4 || nx % 2 != 0 || ny % 2 != 0 || nx > 30000 || ny > 30000)
     throw Error("lattice bed: " + std::to_string(nx) + " x " + std::to_string(ny) +
                 " columns, both must be even and 4 to 30000");
@@ -55,7 +60,7 @@ LatticeBed::LatticeBed(int nx, int ny, double spacing, double angle_of_repose, s
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x)
       height_[static_cast<std::size_t>(y * nx + x)] = static_cast<std::int16_t>((x + y) % 2);
-
+  compare_neighbours();
   roughen(roughening);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/ejection_draws.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
@@ -26,6 +27,13 @@ class LatticeBed {
   /// `spacing` is the distance of columns [m]. Throws Error naming what is not allowed.
   LatticeBed(int nx, int ny, double spacing, double angle_of_repose, std::uint64_t seed,
              double roughening = 1);
+
+  /// A bed over a periodic map of elevations [m], in the order of the geometry's cells, with so many columns
+  /// along each edge of a cell. Heights are in layers above the mean elevation: within two layers of the
+  /// surface, linear between the centres of cells, and of its volume to half a grain. Where the surface is
+  /// steeper than repose the bed is at repose. Throws Error naming what is not allowed.
+  static LatticeBed from_elevation(const GridGeometry& geometry, const std::vector<double>& elevation,
+                                   int columns_per_cell, double angle_of_repose, std::uint64_t seed);
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
@@ -50,21 +58,29 @@ class LatticeBed {
   struct Column;
   struct Path;
   struct Hop;
+  struct Block;
 
-  std::int16_t& height(Column at);
-  void roughen(double moves_per_column);
+  std::size_t index(Column at) const;
+  void compare_neighbours();
+  template <int layers>
+  void change(Column at);
   template <bool up>
-  Column walk(Column at);
+  Column walk(Column at, std::uint32_t& ways) const;
+  Column anywhere();
+  void roughen(double moves_per_column);
+  void settle(std::int64_t grains);
   Path wind_path(double direction);
   void sweep(const Path& path, double drop, double gap, const Hop& hop);
-  void eject(Column struck, const Hop& hop);
+  void eject(Column struck, const EjectionDraws::Draw& draw, const Hop& hop);
 
   int nx_;
   int ny_;
   double spacing_;
   double layer_;
   RandomStream random_;
+  EjectionDraws draws_;
   std::vector<std::int16_t> height_;
+  std::vector<std::uint8_t> higher_;  ///< which neighbours of a column are: east 1, west 2, north 4, south 8
   std::uint64_t ejections_ = 0;
 };
 

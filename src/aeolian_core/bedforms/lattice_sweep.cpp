@@ -1,12 +1,13 @@
-/// How a LatticeBed moves: impacts along wind-aligned paths, the free grain that each sets going, and where
-/// it rests.
+/// How wind moves a LatticeBed: impacts along wind-aligned paths, the free grain that each sets going, and
+/// where it rests.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
-#include "aeolian_core/bedforms/lattice_bed.hpp"
+#include "aeolian_core/bedforms/lattice_column.hpp"
 
 namespace aeolian {
 namespace {
@@ -23,54 +24,63 @@ constexpr double lateral_spread = 0.25;
 /// their way.
 constexpr double landing_slope = 0.75;
 
-/// Exponential with mean 1, in single precision for speed.
-float exponential(RandomStream& random) {
-  return -std::log((static_cast<float>(random.bits() >> 8) + 0.5F) * 0x1p-24F);
-}
+/// Columns of a path are looked at this many at a time.
+constexpr int block = 16;
 
-/// Bell-shaped with standard deviation 1: the sum of four uniform numbers, the bytes of one word.
-float bell(RandomStream& random) {
-  const std::uint32_t word = random.bits();
-  const std::uint32_t pairs = (word & 0x00FF00FFU) + (word >> 8 & 0x00FF00FFU);
-  const auto sum = static_cast<int>((pairs & 0xFFFFU) + (pairs >> 16));
-  constexpr float standard_deviation = 147.8F;  // sqrt(4 (256^2 - 1) / 12)
-  return static_cast<float>(sum - 510) / standard_deviation;
-}
+using EightShort = std::int16_t __attribute__((vector_size(16)));
+using Eight = std::int32_t __attribute__((vector_size(32)));
 
-/// Of a set of neighbours (bit 0 east, 1 west, 2 north, 3 south), the n-th member.
-struct Choice {
-  std::array<std::array<std::uint8_t, 4>, 16> member{};
-  std::array<std::uint8_t, 16> count{};
+/// Where heights stand as seen along the falling grains: `per_layer` for each layer and `step` for each
+/// column downwind.
+struct Envelope {
+  int low;  ///< a height, from which all are counted
+  int per_layer;
+  int step;
 
-  constexpr Choice() {
-    for (unsigned set = 1; set < 16; ++set)
-      for (std::uint8_t n = 0; n < 4; ++n)
-        if ((set >> n & 1U) != 0) member[set][count[set]++] = n;
+  int at(int height, int column) const { return (height - low) * per_layer + column * step; }
+
+  /// Which of a block of columns, from `column` on, stand at `level` or above: a bit for each.
+  AEOLIAN_INLINE unsigned above(const std::int16_t* heights, int column, int level) const {
+    EightShort first, second;
+    std::memcpy(&first, heights, sizeof first);
+    std::memcpy(&second, heights + 8, sizeof second);
+    const Eight least = level - at(0, column) - Eight{0, 1, 2, 3, 4, 5, 6, 7} * step;
+    const Eight bits = ((__builtin_convertvector(first, Eight) * per_layer >= least) &
+                        Eight{1, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7}) |
+                       ((__builtin_convertvector(second, Eight) * per_layer >= least - 8 * step) &
+                        Eight{1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15});
+    std::uint64_t pairs[4];
+    std::memcpy(pairs, &bits, sizeof pairs);
+    const std::uint64_t all = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+    return static_cast<unsigned>(all | all >> 32);
   }
 };
-constexpr Choice choice;
 
 }  // namespace
 
-struct LatticeBed::Column {
-  int x, y;
-};
-
 /// The lattice line that follows the wind: one step along the axis nearest to the wind each time, and a step
 /// across whenever the line has drifted by a column. All lines of a sweep are alike, so that each column lies
-/// on exactly one. A line is told as runs of columns between two steps across.
+/// on exactly one.
 struct LatticeBed::Path {
-  struct Run {
-    int begin, end;  ///< columns along the line; from minus one period to one
-    int drift;       ///< across, in [0, lines)
-  };
   bool along_x;
   bool forward;  ///< towards growing x or y
   int count;     ///< columns of a line in one period
   int lines;
-  double step;  ///< length of wind between two columns of a line, in spacings
-  std::vector<Run> runs;
-  std::size_t first_run;  ///< of those that begin at 0
+  double step;                       ///< length of wind between two columns of a line, in spacings
+  std::vector<int> drift;            ///< across, in [0, lines), of the columns from minus one period to one
+  std::uint32_t across_stride;       ///< between columns of lines beside each other, in the order of storage
+  std::uint32_t along_stride;        ///< and from column to column of a line; modulo 2^32 where that is back
+  std::vector<std::uint32_t> along;  ///< where each column would be without drift, in that order
+  std::vector<int> level_to;         ///< of each column: before this one the drift stays the same
+
+  Column column(int line, int i) const {
+    const int in_drift = i + count;
+    int across = line + drift[static_cast<std::size_t>(in_drift)];
+    if (across >= lines) across -= lines;
+    const int on = i < 0 ? i + count : i;
+    const int place = forward ? on : count - 1 - on;
+    return along_x ? Column{place, across} : Column{across, place};
+  }
 };
 
 struct LatticeBed::Hop {
@@ -79,52 +89,14 @@ struct LatticeBed::Hop {
   float fall;                ///< of a hop of mean length over its own length at the landing angle [layers]
 };
 
-inline std::int16_t& LatticeBed::height(Column at) {
-  return height_[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(nx_) +
-                 static_cast<std::size_t>(at.x)];
-}
+AEOLIAN_INLINE void LatticeBed::eject(Column struck, const EjectionDraws::Draw& draw, const Hop& hop) {
+  std::uint32_t ways = draw.ways;
+  const Column from = walk<true>(struck, ways);
+  const int middle = height_[index(from)] - 1;
+  change<-2>(from);
 
-/// Up or down the slope, at random among the neighbours that are higher or lower, to where there are none.
-template <bool up>
-LatticeBed::Column LatticeBed::walk(Column at) {
-  std::uint32_t bits = random_.bits();
-  while (true) {
-    const std::array<Column, 4> neighbour{{{at.x + 1 == nx_ ? 0 : at.x + 1, at.y},
-                                           {at.x == 0 ? nx_ - 1 : at.x - 1, at.y},
-                                           {at.x, at.y + 1 == ny_ ? 0 : at.y + 1},
-                                           {at.x, at.y == 0 ? ny_ - 1 : at.y - 1}}};
-    const int here = height(at);
-    unsigned set = 0;
-    for (unsigned n = 0; n < 4; ++n) {
-      const int there = height(neighbour[n]);
-      set |= static_cast<unsigned>(up ? there > here : there < here) << n;
-    }
-    if (set == 0) return at;
-    at = neighbour[choice.member[set][(bits >> 24) * choice.count[set] >> 8]];
-    bits = bits * 0x9E3779B1U + 0x7F4A7C15U;
-  }
-}
-
-void LatticeBed::roughen(double moves_per_column) {
-  const auto anywhere = [&] {
-    const int x = static_cast<int>(random_.uniform() * nx_);
-    return Column{x, static_cast<int>(random_.uniform() * ny_)};
-  };
-  for (auto moves = static_cast<std::int64_t>(moves_per_column * nx_ * ny_); moves > 0; --moves) {
-    height(walk<true>(anywhere())) -= 2;
-    height(walk<false>(anywhere())) += 2;
-  }
-}
-
-void LatticeBed::eject(Column struck, const Hop& hop) {
-  const Column from = walk<true>(struck);
-  const int middle = height(from) - 1;
-  height(from) -= 2;
-
-  const float length = exponential(random_);
-  const float across = bell(random_);
-  const float hop_x = length * hop.along_x + across * hop.across_x;
-  const float hop_y = length * hop.along_y + across * hop.across_y;
+  const float hop_x = draw.length * hop.along_x + draw.across * hop.across_x;
+  const float hop_y = draw.length * hop.along_y + draw.across * hop.across_y;
   const auto wrapped = [](float position, int n) {
     auto i = static_cast<int>(std::floor(position + 0.5F));
     if (static_cast<unsigned>(i) >= static_cast<unsigned>(n)) i = (i % n + n) % n;
@@ -134,9 +106,9 @@ void LatticeBed::eject(Column struck, const Hop& hop) {
     return Column{wrapped(static_cast<float>(from.x) + share * hop_x, nx_),
                   wrapped(static_cast<float>(from.y) + share * hop_y, ny_)};
   };
-  const auto rise = static_cast<float>(height(landing(1)) - middle);
-  const float share = std::clamp(1 - rise / (length * hop.fall), 0.0F, 2.0F);
-  height(walk<false>(landing(share))) += 2;
+  const auto rise = static_cast<float>(height_[index(landing(1))] - middle);
+  const float share = std::clamp(1 - rise / (draw.length * hop.fall), 0.0F, 2.0F);
+  change<2>(walk<false>(landing(share), ways));
   ++ejections_;
 }
 
@@ -151,22 +123,67 @@ LatticeBed::Path LatticeBed::wind_path(double direction) {
   path.count = path.along_x ? nx_ : ny_;
   path.lines = path.along_x ? ny_ : nx_;
   path.step = 1 / std::abs(along);
+  const auto nx = static_cast<std::uint32_t>(nx_);
+  path.across_stride = path.along_x ? nx : 1;
+  path.along_stride = (path.along_x ? 1 : nx) * (path.forward ? 1U : ~0U);
   // A new phase each sweep, so that no column is always the one at which lines step across.
   const double phase = random_.uniform();
   for (int i = -path.count; i < path.count; ++i) {
-    int drift = static_cast<int>(std::floor(i * across * path.step + phase)) % path.lines;
-    if (drift < 0) drift += path.lines;
-    if (i == 0) path.first_run = path.runs.size();
-    if (i == 0 || path.runs.empty() || path.runs.back().drift != drift) path.runs.push_back({i, i, drift});
-    path.runs.back().end = i + 1;
+    const int drift = static_cast<int>(std::floor(i * across * path.step + phase)) % path.lines;
+    path.drift.push_back(drift < 0 ? drift + path.lines : drift);
+    const int on = i < 0 ? i + path.count : i;
+    path.along.push_back(static_cast<std::uint32_t>(path.forward ? on : path.count - 1 - on) *
+                         (path.along_x ? 1 : nx));
   }
+  path.level_to.assign(path.drift.size(), path.count);
+  for (std::size_t i = path.drift.size() - 1; i-- > 0;)
+    path.level_to[i] =
+        path.drift[i] == path.drift[i + 1] ? path.level_to[i + 1] : static_cast<int>(i) + 1 - path.count;
   return path;
 }
+
+/// A block of columns of a line, from one on; those beyond its end are lower than any.
+struct LatticeBed::Block {
+  const std::int16_t* heights;
+  std::array<std::uint32_t, block> index;  ///< of the columns, unless their heights are looked at in place
+  std::array<std::int16_t, block> copy;
+  int columns;
+
+  AEOLIAN_INLINE Block(const LatticeBed& bed, const Path& path, int line, int from)
+      : columns(std::min(block, path.count - from)) {
+    const int in_path = from + path.count;
+    const auto at = static_cast<std::size_t>(in_path);
+    const auto begin = static_cast<std::uint32_t>(bed.index(path.column(line, from)));
+    if (from + block <= path.level_to[at] && (from >= 0 || from + block <= 0)) {
+      if (path.along_stride == 1) {
+        heights = &bed.height_[begin];
+        return;
+      }
+      for (std::uint32_t k = 0; k < block; ++k) index[k] = begin + k * path.along_stride;
+    } else {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
+        const int across = path.drift[at + k] + line;
+        index[k] = path.along[at + k] +
+                   path.across_stride *
+                       static_cast<std::uint32_t>(across >= path.lines ? across - path.lines : across);
+      }
+    }
+    copy.fill(std::numeric_limits<std::int16_t>::min());
+    heights = copy.data();
+    refresh(bed, 0);
+  }
+  /// From one on, after the bed has changed.
+  AEOLIAN_INLINE void refresh(const LatticeBed& bed, int first) {
+    if (heights != copy.data()) return;
+    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(columns); ++k)
+      copy[k] = bed.height_[index[k]];
+  }
+};
 
 /// One impact falls, on average, each time that the envelope of the bed seen along the falling grains rises
 /// by `gap` drops, where `drop` is how far, in layers, a grain falls from one column of the path to the next.
 /// Envelopes are reckoned in whole 1/1024 of a drop.
-void LatticeBed::sweep(const Path& path, double drop, double gap, const Hop& hop) {
+AEOLIAN_KERNEL void LatticeBed::sweep(const Path& path, double drop, double gap, const Hop& hop) {
   std::int16_t low = height_.front();
   std::int16_t high = low;
   for (const std::int16_t h : height_) {
@@ -175,48 +192,30 @@ void LatticeBed::sweep(const Path& path, double drop, double gap, const Hop& hop
   }
   int unit = 1024;
   while (unit > 1 && ((high - low) / drop + 2 * path.count) * unit > 1e9) unit /= 2;
-  const int longest_shadow = static_cast<int>(std::ceil((high - low) / drop));
-  const auto per_layer = static_cast<int>(std::lround(unit / drop));
+  const Envelope envelope{low, static_cast<int>(std::lround(unit / drop)), unit};
+  const int shadow = std::min(path.count, static_cast<int>(std::ceil((high - low) / drop)));
   const auto mean_gap = static_cast<float>(unit * gap);
-  const int forward = path.forward ? 1 : -1;
-  const int stride = forward * (path.along_x ? 1 : nx_);
-  constexpr int block = 16;
+  // A billion is beyond the end of every line.
+  const auto gap_after = [&](float drawn) { return static_cast<int>(std::min(mean_gap * drawn, 1e9F)); };
 
   for (int line = 0; line < path.lines; ++line) {
-    const auto column = [&](const Path::Run& run, int i) {
-      int across = line + run.drift;
-      if (across >= path.lines) across -= path.lines;
-      const int on = i < 0 ? i + path.count : i;
-      const int along = path.forward ? on : path.count - 1 - on;
-      return path.along_x ? Column{along, across} : Column{across, along};
-    };
-    const auto ray = [&](std::int16_t h, int i) { return (h - low) * per_layer + i * unit; };
-    const auto draw_gap = [&] { return static_cast<int>(mean_gap * exponential(random_)); };
-
     int next = std::numeric_limits<int>::min();
-    for (std::size_t r = 0; r < path.first_run; ++r) {
-      const Path::Run& run = path.runs[r];
-      for (int i = std::max(run.begin, -longest_shadow); i < run.end; ++i)
-        next = std::max(next, ray(height(column(run, i)), i));
+    for (int i = -shadow; i < 0; i += block) {
+      const Block columns(*this, path, line, i);
+      for (int k = 0; k < std::min(block, -i); ++k)
+        next = std::max(next, envelope.at(columns.heights[k], i + k));
     }
-    next += draw_gap();
-    for (std::size_t r = path.first_run; r < path.runs.size(); ++r) {
-      const Path::Run& run = path.runs[r];
-      for (int i = run.begin; i < run.end; i += block) {
-        const int columns = std::min(block, run.end - i);
-        const std::int16_t* const at = &height(column(run, i));
-        if (columns == block && path.along_x) {
-          // The common case, without a branch for each column: may any of the block be struck?
-          const std::int16_t* const first = path.forward ? at : at - (block - 1);
-          int top = std::numeric_limits<int>::min();
-          for (int k = 0; k < block; ++k) top = std::max(top, ray(first[k], forward * k));
-          if (top + (path.forward ? i : i + block - 1) * unit < next) continue;
-        }
-        for (int k = 0; k < columns; ++k)
-          while (ray(at[k * stride], i + k) >= next) {
-            eject(column(run, i + k), hop);
-            next += draw_gap();
-          }
+    next += gap_after(draws_.next().gap);
+    for (int i = 0; i < path.count; i += block) {
+      Block columns(*this, path, line, i);
+      unsigned ahead = ~0U;  // of the grains that fall: columns not passed yet
+      while (const unsigned struck = envelope.above(columns.heights, i, next) & ahead) {
+        const int k = __builtin_ctz(struck);
+        ahead = ~0U << k;
+        const EjectionDraws::Draw draw = draws_.next();
+        eject(path.column(line, i + k), draw, hop);
+        next += gap_after(draw.gap);
+        columns.refresh(*this, k);
       }
     }
   }

@@ -58,6 +58,22 @@ TEST(HaffBedTest, grains_are_conserved_and_nothing_is_steeper_than_repose) {
   }
 }
 
+TEST(HaffBedTest, a_given_bed_slides_to_repose) {
+  HaffParameters parameters;
+  parameters.bins = 20;
+  std::vector<int> grains(20);
+  grains[3] = 1000;
+  const HaffBed bed(parameters, grains, 1, 0);
+  EXPECT_EQ(std::accumulate(bed.grains().begin(), bed.grains().end(), 0), 1000);
+  for (std::size_t i = 0; i < 20; ++i)
+    EXPECT_LE(std::abs(bed.grains()[(i + 1) % 20] - bed.grains()[i]), 16 * std::tan(30 * degree));
+  EXPECT_EQ(bed.moved(), 0);
+  EXPECT_EQ(error_of([&] {
+              HaffBed(parameters, {1, 2}, 1, 0);
+            }),
+            "Haff's bed: grains are given for 2 bins, must be for 20");
+}
+
 TEST(HaffBedTest, a_run_depends_on_its_seed_only) {
   HaffBed at_once({}, 1), in_parts({}, 1), other({}, 2);
   at_once.advance(3);

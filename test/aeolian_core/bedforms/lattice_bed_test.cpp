@@ -112,6 +112,9 @@ TEST(LatticeBedTest, calm_changes_nothing) {
   calm.ejection_rate = 0;
   bed.advance(calm, 1000);
   bed.advance(strong_wind(), 0);
+  Forcing breath = strong_wind();
+  breath.ejection_rate *= 1e-12;
+  bed.advance(breath, 1);
   EXPECT_EQ(bed.heights(), before);
   EXPECT_EQ(bed.ejections(), 0U);
 }
