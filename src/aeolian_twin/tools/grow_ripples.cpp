@@ -26,7 +26,9 @@ constexpr const char* description =
     R"(Grows wind ripples on a bed of sand.
 
 The bed is a map (GeoTIFF with a band elevation [m], and ground [m] where hard ground lies under the sand) or level and
-screeded. A level bed is periodic, a map has open borders, unless --border says otherwise.
+screeded. Models: height_map, the one that forecasts; lattice, a bed of single grains, the slow truth; haff, Haff's
+height bins, for winds along an axis of the map. A level bed is periodic, a map has open borders, unless --border says
+otherwise; beds of grains are periodic.
 
 Written to DIR: elevation_SSSS.tif every --map-every-s, ripples.csv and ripples.svg (wavelength, height, slopes, speed in
 time), sections.svg (the bed along the wind at several times), map.png (the bed at the end).)";
@@ -40,6 +42,7 @@ struct Options {
   double minutes = 10;
   double grain_diameter_mm = 0.25;
   double map_every = 60;
+  std::string model = "height_map";
   std::optional<Border> border;
   std::uint64_t seed = 1;
   std::string out;
@@ -74,6 +77,10 @@ HeightMap starting_bed(const Options& options, const Grain& grain) {
 }
 
 std::unique_ptr<BedModel> model_of(const Options& options) {
+  if (options.model != "height_map" && options.border == Border::open)
+    throw Error("--border: open, must be periodic for the model " + options.model);
+  if (options.model == "lattice") return std::make_unique<LatticeModel>(LatticeParameters{}, options.seed);
+  if (options.model == "haff") return std::make_unique<HaffModel>(HaffModelParameters{}, options.seed);
   RippleParameters parameters;
   parameters.border = options.border.value_or(options.bed.empty() ? Border::periodic : Border::open);
   return std::make_unique<RippleModel>(parameters);
@@ -146,6 +153,9 @@ int run(int argc, char** argv) {
   app.add_option("--minutes", o.minutes, "of wind")->check(CLI::Range(1e-3, 1e6))->capture_default_str();
   app.add_option("--grain-diameter-mm", o.grain_diameter_mm, "of the sand")
       ->check(CLI::Range(0.05, 5.0))
+      ->capture_default_str();
+  app.add_option("--model", o.model, "height_map, lattice or haff")
+      ->check(CLI::IsMember({"height_map", "lattice", "haff"}))
       ->capture_default_str();
   app.add_option("--border", o.border, "periodic or open")
       ->transform(CLI::CheckedTransformer(
