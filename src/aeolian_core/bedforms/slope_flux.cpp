@@ -11,6 +11,7 @@ namespace aeolian {
 namespace {
 
 constexpr int stations_at_once = 16;
+constexpr int stations_together = 64;  ///< whose stages follow one another
 
 /// A station and what lies before and behind it.
 struct Rows {
@@ -31,12 +32,10 @@ AEOLIAN_INLINE double divergence(const double* h, const double* h_before, const 
 }
 
 AEOLIAN_KERNEL void begin_stages(std::ptrdiff_t count, double gain, Rows height, Rows activity,
-                                 double* __restrict start, double* __restrict first,
-                                 double* __restrict next) {
+                                 double* __restrict first, double* __restrict next) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double d = divergence(height.here, height.before, height.behind, activity.here, activity.before,
                                 activity.behind, i);
-    start[i] = height.here[i];
     first[i] = d;
     next[i] = height.here[i] + gain * d;
   }
@@ -46,14 +45,14 @@ struct Stage {
   double last, before_last, start, gain, first_gain;
 };
 
-AEOLIAN_KERNEL void add_stage(std::ptrdiff_t count, const Stage& given, Rows height, Rows activity,
-                              const double* __restrict start, const double* __restrict first,
-                              double* __restrict next) {
+AEOLIAN_KERNEL void add_stage(std::ptrdiff_t count, const Stage& given, Rows height,
+                              const double* before_last, Rows activity, const double* start,
+                              const double* __restrict first, double* __restrict next) {
   const Stage c = given;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double d = divergence(height.here, height.before, height.behind, activity.here, activity.before,
                                 activity.behind, i);
-    next[i] = (c.last * height.here[i] + c.before_last * next[i] + c.start * start[i]) +
+    next[i] = (c.last * height.here[i] + c.before_last * before_last[i] + c.start * start[i]) +
               (c.gain * d + c.first_gain * first[i]);
   }
 }
@@ -90,12 +89,7 @@ AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows h
 }  // namespace
 
 SlopeFlux::SlopeFlux(const WindFrame& frame, double cell, double scale)
-    : frame_(frame),
-      cell_(cell),
-      scale_(scale),
-      next_(frame.stations(), frame.rows()),
-      start_(next_),
-      first_(next_) {}
+    : frame_(frame), cell_(cell), scale_(scale), next_(frame.stations(), frame.rows()) {}
 
 /// Calls work(station, rows_of), in parallel; rows_of(field) are those of the station and its neighbours.
 template <class Work>
@@ -116,6 +110,82 @@ void SlopeFlux::for_stations(Work&& work) const {
   });
 }
 
+/// The stages of a Runge-Kutta-Legendre step on a stretch of stations, each one station behind the one
+/// before it, so that a bed is read and written once and what lies in between stays in a cache. A stage is
+/// worked out as far beyond the stretch as the later ones look.
+class SlopeFlux::Stages {
+ public:
+  Stages(const SlopeFlux& flux, int count, double gain, const FrameField& activity, const FrameField& height,
+         FrameField& result)
+      : frame_(flux.frame_),
+        count_(count),
+        activity_(activity),
+        height_(height),
+        result_(result),
+        between_(4 * (count - 1), frame_.rows()),
+        first_(count + 2, frame_.rows()) {
+    const double n = count;
+    const double w = 4 / (n * n + n - 2);
+    const auto b = [](double j) { return j < 2 ? 1.0 / 3 : (j * j + j - 2) / (2 * j * (j + 1)); };
+    first_gain_ = w / 3 * gain;
+    for (double j = 2; j <= n; ++j) {
+      const double mu = (2 * j - 1) / j * b(j) / b(j - 1);
+      const double nu = -(j - 1) / j * b(j) / b(j - 2);
+      stages_.push_back({mu, nu, 1 - mu - nu, mu * w * gain, -(1 - b(j - 1)) * mu * w * gain});
+    }
+  }
+
+  void run(int begin, int end) {
+    for (int station = begin - count_; station < end + count_; ++station)
+      for (int j = 1; j <= count_; ++j) {
+        const int at = station - j;
+        const int beyond = count_ - j;
+        if (at < begin - beyond || at >= end + beyond) continue;
+        if (!frame_.periodic() && (at < 0 || at >= frame_.stations())) continue;
+        run_stage(j, at);
+      }
+  }
+
+ private:
+  /// The station of the field that one is or goes on as.
+  int wrapped(int station) const {
+    const int n = frame_.stations();
+    return frame_.periodic() ? (station % n + n) % n : std::clamp(station, 0, n - 1);
+  }
+  /// Heights after stage j, 0 ... count - 1.
+  const double* row(int j, int station) {
+    if (j == 0) return height_.at(wrapped(station));
+    return between(j, frame_.periodic() ? station : wrapped(station));
+  }
+  double* between(int j, int station) { return between_.at(4 * (j - 1) + (station & 3)); }
+
+  void run_stage(int j, int at) {
+    const Rows height{row(j - 1, at), row(j - 1, at - 1), row(j - 1, at + 1)};
+    const Rows activity{activity_.at(wrapped(at)), activity_.at(wrapped(at - 1)),
+                        activity_.at(wrapped(at + 1))};
+    const int turn = count_ + 2;
+    double* const first = first_.at((at % turn + turn) % turn);
+    FrameField& to = j == count_ ? result_ : between_;
+    const int place = j == count_ ? wrapped(at) : 4 * (j - 1) + (at & 3);
+    if (j == 1)
+      begin_stages(frame_.rows(), first_gain_, height, activity, first, to.at(place));
+    else
+      add_stage(frame_.rows(), stages_[static_cast<std::size_t>(j) - 2], height, row(j - 2, at), activity,
+                row(0, at), first, to.at(place));
+    to.fill_pads(place, frame_.periodic());
+  }
+
+  const WindFrame& frame_;
+  int count_;
+  const FrameField& activity_;
+  const FrameField& height_;
+  FrameField& result_;
+  FrameField between_;  ///< four stations of each stage in turn
+  FrameField first_;    ///< what flows at first
+  double first_gain_ = 0;
+  std::vector<Stage> stages_;
+};
+
 void SlopeFlux::run(const FrameField& activity, double strongest_activity, double duration,
                     FrameField& height) {
   const double strongest = scale_ * strongest_activity;
@@ -123,30 +193,15 @@ void SlopeFlux::run(const FrameField& activity, double strongest_activity, doubl
   // One explicit step is stable to D dt / cell^2 = 1/4 in two dimensions. A Runge-Kutta-Legendre scheme of
   // second order and n stages covers (n^2 + n - 2) / 4 of them (Meyer, Balsara and Aslam 2014).
   const double explicit_steps = strongest * duration / (0.25 * cell_ * cell_);
-  const double stages = std::max(2.0, std::ceil(std::sqrt(2.25 + 4 * explicit_steps) - 0.5));
+  const int stages = static_cast<int>(std::max(2.0, std::ceil(std::sqrt(2.25 + 4 * explicit_steps) - 0.5)));
   // A face's activity is the sum of two, hence a half.
   const double gain = scale_ * duration / (2 * cell_ * cell_);
-  const double w = 4 / (stages * stages + stages - 2);
-  const auto b = [](double j) { return j < 2 ? 1.0 / 3 : (j * j + j - 2) / (2 * j * (j + 1)); };
-  const int rows = frame_.rows();
-  const bool periodic = frame_.periodic();
-
-  for_stations([&](int i, auto&& rows_of) {
-    begin_stages(rows, w / 3 * gain, rows_of(height), rows_of(activity), start_.at(i), first_.at(i),
-                 next_.at(i));
-    next_.fill_pads(i, periodic);
+  const int n = frame_.stations();
+  const int each = std::max(stations_together, 4 * stages);
+  tbb::parallel_for(0, (n + each - 1) / each, [&](int block) {
+    Stages(*this, stages, gain, activity, height, next_).run(block * each, std::min((block + 1) * each, n));
   });
   height.swap(next_);
-  for (double j = 2; j <= stages; ++j) {
-    const double mu = (2 * j - 1) / j * b(j) / b(j - 1);
-    const double nu = -(j - 1) / j * b(j) / b(j - 2);
-    const Stage stage{mu, nu, 1 - mu - nu, mu * w * gain, -(1 - b(j - 1)) * mu * w * gain};
-    for_stations([&](int i, auto&& rows_of) {
-      add_stage(rows, stage, rows_of(height), rows_of(activity), start_.at(i), first_.at(i), next_.at(i));
-      next_.fill_pads(i, periodic);
-    });
-    height.swap(next_);
-  }
 }
 
 void SlopeFlux::run(const FrameField& activity, double strongest_activity, double duration,

@@ -20,13 +20,14 @@ class SlopeFlux {
            const ActivePatches& active, FrameField& height);
 
  private:
+  class Stages;
   template <class Work>
   void for_stations(Work&& work) const;
 
   const WindFrame& frame_;
   double cell_;
   double scale_;
-  FrameField next_, start_, first_;
+  FrameField next_;
 };
 
 }  // namespace aeolian
