@@ -126,11 +126,11 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
 
   const bool periodic = parameters_.border == Border::periodic;
   const double cell = geometry.cell();
-  const double tan_impact = std::tan(forcing.impact_angle);
+  const ImpactAngles angles(forcing.impact_angle, forcing.impact_angle_spread);
   const double tan_repose = std::tan(forcing.grain.angle_of_repose);
   const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
   const WindFrame frame(geometry, forcing.direction, periodic);
-  ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
+  ImpactSweep impacts(frame, angles, hop, parameters_.hop_shortening);
   SlopeFlux slopes(frame, cell, slope_scale);
   Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
   const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
@@ -151,7 +151,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
 
   VolumeBalance volume;
   const double steps =
-      std::max(1.0, std::ceil(duration * erosion_rate / (parameters_.step * frame.step() * tan_impact)));
+      std::max(1.0, std::ceil(duration * erosion_rate / (parameters_.step * frame.step() * angles.effective_tangent())));
   const double dt = duration / steps;
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
