@@ -18,6 +18,10 @@ ImpactAngles::ImpactAngles(double mean, double deviation)
   });
 }
 
+double ImpactAngles::least_tangent() const {
+  return *std::min_element(tangent_.begin(), tangent_.begin() + count_);
+}
+
 double ImpactAngles::effective_tangent() const {
   if (count_ == 1) return tangent_[0];
   double mean = 0;

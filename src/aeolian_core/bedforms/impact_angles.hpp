@@ -21,6 +21,7 @@ class ImpactAngles {
 
   int count() const { return count_; }
   double tangent(int i) const { return tangent_[static_cast<std::size_t>(i)]; }
+  double least_tangent() const;
   /// Share of the impacts on a flat bed.
   double weight(int i) const { return count_ == 1 ? 1 : i == 0 ? 2.0 / 3 : 1.0 / 6; }
   /// Tangent of the one angle that has the mean cotangent.

@@ -6,6 +6,8 @@
 
 namespace aeolian {
 
+class WindFrame;
+
 enum class Border {
   periodic,  ///< opposite borders are joined; needs a fully known map
   open,      ///< flat-bed supply from upwind, free outflow downwind
@@ -54,6 +56,10 @@ class RippleModel : public BedModel {
   BedChange advance(const GridGeometry& geometry, std::vector<double>& height,
                     const std::vector<double>* floor, const std::vector<double>* open, const Forcing& forcing,
                     double duration) const;
+  struct Run;
+  /// Makes up to so many steps in a part of the grid, until sand may leave it. Returns the steps made.
+  double advance(const Run& run, const WindFrame& frame, double steps, std::vector<double>& height,
+                 VolumeBalance& volume) const;
 
   RippleParameters parameters_;
 };
