@@ -16,7 +16,7 @@ constexpr int stations_together = 64;  ///< whose stages follow one another
 constexpr int stations_at_once = 16;
 
 /// Of a flat bed's: of less, thin sand on hard ground does not flow down slopes.
-constexpr double least_activity = 1e-3;
+constexpr double least_activity = 1e-2;
 
 /// A station and what lies before and behind it.
 struct Rows {

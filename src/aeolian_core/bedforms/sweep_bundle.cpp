@@ -364,11 +364,18 @@ class Bundle {
     }
     if (begin >= end) return;
     for_stretches(station, begin, end, [&](int from, int to, int q) {
+      double* const lost = task_.erosion.at(station) + q;
+      double* const gained = task_.deposition.at(station) + q;
       average(to - from, erosion(0, station) + from, erosion(1, station) + from, erosion(2, station) + from,
-              task_.erosion.at(station) + q);
+              lost);
       average(to - from, deposition(0, station) + from, deposition(1, station) + from,
-              deposition(2, station) + from, task_.deposition.at(station) + q);
-      if (task_.ground) result_.touched.push_back({station, q - 1, q + to - from});
+              deposition(2, station) + from, gained);
+      if (!task_.ground) return;
+      int first = 0;
+      int last = to - from;
+      while (first < last && lost[first] == 0 && gained[first] == 0) ++first;
+      while (first < last && lost[last - 1] == 0 && gained[last - 1] == 0) --last;
+      if (first < last) result_.touched.push_back({station, q + first - 1, q + last});
     });
   }
 

@@ -42,7 +42,7 @@ struct SweptBundle {
 SweptBundle sweep_bundle(const SweepTask& task, int begin, int end);
 
 /// Share of a flat bed's flux.
-constexpr double least_flux = 1e-5;
+constexpr double least_flux = 1e-4;
 
 /// Stations that the last of the stages is behind the first, and its result behind what it reads.
 constexpr int stage_stations = 6;
