@@ -207,6 +207,9 @@ double RippleModel::advance(const Run& run, const WindFrame& frame, double steps
     volume.outflow += laid.outflow * depth * area;
     if (ground.any()) {
       slopes.run(activity, laid.strongest, dt, ground, active, bed);
+      // What no grain reaches may have been steep from the first.
+      if (step == 0)
+        sandy.for_all([&](int station, int patch, int, int) { active.set(station, patch, true); });
       volume.moved += avalanches.run(bed, ground, active);
     } else {
       slopes.run(activity, laid.strongest, dt, bed);
