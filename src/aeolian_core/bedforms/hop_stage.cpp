@@ -173,6 +173,18 @@ void HopStage::pass_over(const HopLaw& law, int begin, int end, const double* he
   for (int n = 0; n < law.angles; ++n)
     lower_envelope(end - begin, law.drop[static_cast<std::size_t>(n)], height + begin,
                    memory_.envelope[n] + begin);
+  std::fill(memory_.exposure + begin, memory_.exposure + end, 0.0);
+}
+
+bool HopStage::is_struck(const HopLaw& law, int begin, int end, const double* height) const {
+  for (int n = 0; n < law.angles; ++n)
+    for (int i = begin; i < end; ++i)
+      if (memory_.envelope[n][i] - law.drop[static_cast<std::size_t>(n)] < height[i]) return true;
+  return false;
+}
+
+bool HopStage::was_struck(int begin, int end) const {
+  return std::any_of(memory_.exposure + begin, memory_.exposure + end, [](double e) { return e > 0; });
 }
 
 void HopStage::forget_shadows() {
@@ -188,7 +200,10 @@ void HopStage::put_down(int begin, int end, double* deposition_2) {
 }
 
 double HopStage::strongest_flux(int begin, int end) const {
-  return begin < end ? *std::max_element(memory_.grains + begin, memory_.grains + end) : 0;
+  double strongest = 0;
+  for (const double* flux : {memory_.grains, memory_.flux[0], memory_.flux[1], memory_.out[now_]})
+    for (int i = begin; i < end; ++i) strongest = std::max(strongest, std::abs(flux[i]));
+  return strongest;
 }
 
 void HopStage::begin(const HopLaw& law, int line, double height, double share) {

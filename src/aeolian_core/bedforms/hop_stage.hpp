@@ -61,8 +61,12 @@ class HopStage {
   void sweep(const HopLaw& law, int begin, int end, const Stations& at);
   void sweep(const HopLaw& law, int begin, int end, const Stations& at, const Ground& ground);
 
-  /// Sweeps bare ground that no grain reaches: only the envelope of the impacts changes.
+  /// Sweeps bare or shaded ground that no grain reaches: only the envelope of the impacts changes.
   void pass_over(const HopLaw& law, int begin, int end, const double* height);
+
+  /// Whether an impact falls between stations k - 1 and k, the next one, or fell between the last two.
+  bool is_struck(const HopLaw& law, int begin, int end, const double* height) const;
+  bool was_struck(int begin, int end) const;
 
   /// Forgets what shades the bed.
   void forget_shadows();
@@ -74,7 +78,7 @@ class HopStage {
   /// its flux.
   void begin(const HopLaw& law, int line, double height, double share);
 
-  /// Largest flux of grains among some lines.
+  /// Largest flux on its way among some lines.
   double strongest_flux(int begin, int end) const;
 
   /// Flux through the face behind the station whose deposition was given last, and through the one before it.

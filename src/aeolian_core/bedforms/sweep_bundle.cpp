@@ -137,12 +137,11 @@ class Bundle {
       for (int s = 0; s < stages; ++s) {
         const int k = station - s * lag;
         if (k < origin) continue;
-        const bool needed = k < end && (busy[index(k)] || busy[index(k - 1)]);
-        if (needed) awake_[at(s)] = true;
-        run_stage_on_ground(s, k, resting);
+        const bool sandy = busy[index(k)] || busy[index(k - 1)];
+        run_stage_on_ground(s, k, sandy, resting);
         if (!awake_[at(s)]) continue;
         asleep_since = station;
-        if (!needed) let_rest(s, k);
+        if (!sandy || is_sheltered(s, k)) let_rest(s, k);
         account(s, k - lag);
       }
       if (!resting) write(station - stage_stations);
@@ -253,9 +252,9 @@ class Bundle {
     account(s, k - lag);
   }
 
-  /// Where a stage is asleep nothing is eroded and no grain comes down. The bed does not change where all
-  /// have been for long: `resting`.
-  void run_stage_on_ground(int s, int k, bool resting) {
+  /// Where a stage is asleep nothing is eroded and no grain comes down: what lies there is bare, or in the
+  /// shadow. The bed does not change where all have been for long: `resting`.
+  void run_stage_on_ground(int s, int k, bool sandy, bool resting) {
     if (resting) {
       stage_[at(s)].pass_over(law_, live_.begin, live_.end, height(0, k));
       if (s > 0) std::copy_n(height(0, k), most_lines, height(s, k));
@@ -263,6 +262,8 @@ class Bundle {
       return;
     }
     predict_heights(s, k);
+    if (sandy && !awake_[at(s)])
+      awake_[at(s)] = lines_begin(k) || stage_[at(s)].is_struck(law_, live_.begin, live_.end, height(s, k));
     if (awake_[at(s)]) {
       stage_[at(s)].sweep(law_, swept_.begin, swept_.end, stations(s, k),
                           {movable(k - 1), passable(k - 1), passable(k - 2)});
@@ -272,6 +273,13 @@ class Bundle {
       std::fill_n(deposition(s, k - lag), most_lines, 0.0);
     }
     start_lines(s, k, task_.first);
+  }
+
+  /// Whether no line is struck at the last two stations.
+  bool is_sheltered(int s, int k) {
+    const double* const eroded = erosion(s, k - 1);
+    return !stage_[at(s)].was_struck(live_.begin, live_.end) &&
+           std::all_of(eroded + live_.begin, eroded + live_.end, [](double e) { return e == 0; });
   }
 
   /// Puts a stage to sleep, and the last grains down, where these are few and may come to rest.
@@ -284,6 +292,12 @@ class Bundle {
     stage.put_down(live_.begin, live_.end, deposition(s, k - lag));
     std::fill_n(erosion(s, k - 1), most_lines, 0.0);  // would come down behind
     awake_[at(s)] = false;
+  }
+
+  bool lines_begin(int k) const {
+    bool any = k == task_.first;
+    if (!frame_.periodic() && k < frame_.stations()) for_difference(k, k - 1, [&](int) { any = true; });
+    return any;
   }
 
   void start_lines(int s, int k, int first) {

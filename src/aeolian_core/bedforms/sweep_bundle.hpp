@@ -37,8 +37,8 @@ struct SweptBundle {
 };
 
 /// Sweeps the lines begin <= j < end, at most HopStage::most_lines, side by side from the first station to
-/// the last. On hard ground nothing is done where nothing can be eroded and no grain is on its way: a flux of
-/// less than `least_flux` of a flat bed's is put down.
+/// the last. On hard ground nothing is done where no sand lies that can be eroded, or all of it in the
+/// shadow, and no grain is on its way: a flux of less than `least_flux` of a flat bed's is put down.
 SweptBundle sweep_bundle(const SweepTask& task, int begin, int end);
 
 /// Share of a flat bed's flux.

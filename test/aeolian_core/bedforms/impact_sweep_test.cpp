@@ -128,6 +128,53 @@ TEST(ImpactAnglesTest, without_spread_there_is_one_and_with_much_none_is_out_of_
   }
 }
 
+TEST(ImpactSweepTest, sheltered_sand_that_is_left_out_changes_nothing_else) {
+  // Lines 0 ... 40 behind a ridge, by themselves and beside lines that no shadow lets rest.
+  struct OnGround {
+    GridGeometry geometry;
+    WindFrame frame;
+    ImpactSweep impacts;
+    ActivePatches active;
+
+    explicit OnGround(int ny)
+        : geometry(0, 0, cell, 500, ny),
+          frame(geometry, 0, false),
+          impacts(frame, tan_impact, 0.005, 1),
+          active(500, ny) {
+      std::vector<double> h(geometry.size(), 0.0);
+      for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 500; ++x)
+          h[geometry.index(x, y)] =
+              0.05 * std::exp(-0.5 * std::pow((x - 120) / 40.0, 2)) + 0.0005 * std::sin(0.4 * x + 0.2 * y);
+      FrameField bed, dune;
+      HardGround ground;
+      frame.enter(h, bed);
+      frame.enter(std::vector<double>(h.size(), 0.0), dune);
+      frame.enter(std::vector<double>(h.size(), HardGround::bottomless), ground.floor);
+      frame.enter(std::vector<double>(h.size(), 1.0), ground.open);
+      const ActivePatches sandy = active;
+      impacts.run(bed, dune, ground, sandy, 1e-4, active);
+    }
+  };
+  const OnGround alone(40);
+  const OnGround beside(60);
+  EXPECT_FALSE(alone.active.get(300, 0));
+  EXPECT_TRUE(beside.active.get(300, 1));
+  EXPECT_TRUE(alone.active.get(450, 0));
+  for (int q = 1; q < 39; ++q) {
+    double gained = 0;
+    for (int station = 0; station < 500; ++station) {
+      const auto gain = [&](const OnGround& run) { return run.impacts.deposition().at(station)[q]; };
+      const auto loss = [&](const OnGround& run) { return run.impacts.erosion().at(station)[q]; };
+      // A flat bed's flux is five cells'.
+      ASSERT_NEAR(gain(alone), gain(beside), 5 * least_flux) << station << ' ' << q;
+      ASSERT_NEAR(loss(alone), loss(beside), 5 * least_flux) << station << ' ' << q;
+      gained += gain(alone) - gain(beside);
+    }
+    EXPECT_NEAR(gained, 0, 1e-9);
+  }
+}
+
 TEST(ImpactSweepTest, what_enters_an_open_bed_leaves_it_or_stays) {
   for (const double direction : {0.0, 0.3, -0.6, M_PI / 4}) {
     const Sweep sweep(90, 70, direction, false,

@@ -464,6 +464,58 @@ TEST(RippleModelTest, hard_ground_is_never_eroded_and_sand_is_conserved_on_it) {
   }
 }
 
+TEST(RippleModelTest, the_part_that_is_worked_on_is_worked_on_as_in_the_whole) {
+  // An unknown cell far from the sand has the whole grid worked on.
+  const GridGeometry g(0, 0, 0.002, 500, 400);
+  HeightMap map(g);
+  map.add(layer::elevation);
+  map.add(layer::ground);
+  const std::vector<double> rough = noise(g, 3e-4);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x) {
+      const std::size_t i = g.index(x, y);
+      map.layer(layer::ground)[i] = static_cast<float>(0.002 * std::sin(0.05 * x + 0.03 * y));
+      const bool sand = x >= 220 && x < 280 && y >= 170 && y < 230;
+      map.layer(layer::elevation)[i] =
+          map.layer(layer::ground)[i] + (sand ? static_cast<float>(0.004 + std::abs(rough[i])) : 0.0F);
+    }
+  for (const double direction : {0.4, 2.0, M_PI}) {
+    HeightMap part = map;
+    const BedChange change = RippleModel(RippleParameters{}).advance(part, wind(direction), 60);
+    EXPECT_NEAR(change.volume.error(), 0, 1e-12);
+    HeightMap whole = map;
+    const std::size_t hole = g.index(direction == 0.4 ? 20 : 480, 20);
+    whole.layer(layer::elevation)[hole] = HeightMap::unknown;
+    RippleModel(RippleParameters{}).advance(whole, wind(direction), 60);
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      if (i == hole) continue;
+      ASSERT_NEAR(part.layer(layer::elevation)[i], whole.layer(layer::elevation)[i], 1e-5F)
+          << direction << ' ' << i % 500 << ' ' << i / 500;
+    }
+  }
+}
+
+TEST(RippleModelTest, sheltered_sand_is_left_as_it_is) {
+  // A lee of 28 degrees that shades more than grains hop, and noise that nothing can reach.
+  const GridGeometry g(0, 0, 0.002, 640, 70);
+  const std::vector<double> rough = noise(g, 2e-5);
+  HeightMap map(g);
+  map.add(layer::ground);  // unknown: none
+  HeightMap::Layer& h = map.add(layer::elevation);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      h[g.index(x, y)] =
+          static_cast<float>(0.106 * (1 - std::clamp((x - 200) / 100.0, 0.0, 1.0)) + rough[g.index(x, y)]);
+  const HeightMap::Layer before = h;
+  Forcing forcing = wind();
+  forcing.reptation_length = 0.004;
+  const BedChange change = RippleModel(parameters(Border::open, 0.4, 1)).advance(map, forcing, 20);
+  EXPECT_NEAR(change.volume.error(), 0, 1e-12);
+  for (int y = 0; y < g.ny(); ++y)
+    for (const int x : {250, 300, 350})  // to what rounding to floats hands on
+      EXPECT_NEAR(map.layer(layer::elevation)[g.index(x, y)], before[g.index(x, y)], 1e-8F);
+}
+
 TEST(RippleModelTest, bare_ground_costs_nothing_and_changes_nothing) {
   // Sand in one corner of a hard plain with some relief: the run must not depend on what is skipped.
   const GridGeometry g(0, 0, 0.002, 256, 192);
