@@ -171,7 +171,7 @@ void SlopeFlux::run(const FrameField& activity, double strongest_activity, doubl
   run_thin(activity, duration, ground, active, height);
 }
 
-/// Sand of more than a cell's depth is deep.
+/// Sand of more than a quarter of a cell's depth is deep.
 void SlopeFlux::find_deep(const HardGround& ground, const ActivePatches& active, const FrameField& height) {
   if (deep_.rows() == 0) deep_ = FrameField(frame_.stations(), frame_.rows());
   const auto set = [&](const ActivePatches& patches, auto&& set_run) {
@@ -191,8 +191,8 @@ void SlopeFlux::find_deep(const HardGround& ground, const ActivePatches& active,
         [&](int i, int begin, int end) { std::fill(deep_.at(i) + begin, deep_.at(i) + end, 0.0); });
   was_active_ = active;
   set(active, [&](int i, int begin, int end) {
-    mark_deep(end - begin, cell_, height.at(i) + begin, ground.floor.at(i) + begin, ground.open.at(i) + begin,
-              deep_.at(i) + begin);
+    mark_deep(end - begin, 0.25 * cell_, height.at(i) + begin, ground.floor.at(i) + begin,
+              ground.open.at(i) + begin, deep_.at(i) + begin);
   });
 }
 
