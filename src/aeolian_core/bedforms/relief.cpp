@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 namespace {
@@ -30,44 +33,49 @@ std::vector<double> plane(const GridGeometry& g, const std::vector<double>& heig
   return result;
 }
 
-/// Running mean over 2 half + 1 values of a row, wrapped or cut off at its ends.
-void box_mean(std::vector<double>& row, int half, bool periodic, std::vector<double>& sums) {
-  const int n = static_cast<int>(row.size());
-  const int margin = periodic ? half : 0;
-  sums.assign(static_cast<std::size_t>(n + 2 * margin) + 1, 0.0);
-  for (int i = -margin; i < n + margin; ++i)
-    sums[static_cast<std::size_t>(i + margin) + 1] =
-        sums[static_cast<std::size_t>(i + margin)] + row[static_cast<std::size_t>((i % n + n) % n)];
+constexpr int lanes = 16;  ///< lines that are smoothed side by side
+
+/// Running means over 2 half + 1 values of each line, wrapped or cut off at the ends. A line's values lie
+/// `lanes` apart.
+AEOLIAN_KERNEL void box_mean(int n, int half, bool periodic, const double* __restrict values,
+                             double* __restrict means) {
+  double sums[lanes] = {};
+  const auto add = [&](int i, double sign) {
+    if (!periodic && (i < 0 || i >= n)) return;
+    const double* const line = values + (i % n + n) % n * lanes;
+    for (int k = 0; k < lanes; ++k) sums[k] += sign * line[k];
+  };
+  for (int i = -half; i < half; ++i) add(i, 1);
   for (int i = 0; i < n; ++i) {
-    const int from = std::max(i - half, -margin);
-    const int to = std::min(i + half + 1, n + margin);
-    row[static_cast<std::size_t>(i)] =
-        (sums[static_cast<std::size_t>(to + margin)] - sums[static_cast<std::size_t>(from + margin)]) /
-        (to - from);
+    add(i + half, 1);
+    const int count = periodic ? 2 * half + 1 : std::min(i + half + 1, n) - std::max(i - half, 0);
+    const double share = 1.0 / count;
+    for (int k = 0; k < lanes; ++k) means[i * lanes + k] = sums[k] * share;
+    add(i - half, -1);
   }
 }
 
-/// Running mean over 2 half + 1 rows, for all columns at the same time.
-std::vector<double> box_mean_of_rows(const GridGeometry& g, const std::vector<double>& values, int half,
-                                     bool periodic) {
-  const int n = g.ny();
-  const auto nx = static_cast<std::size_t>(g.nx());
-  std::vector<double> sums(nx, 0.0);
-  std::vector<double> result(values.size());
-  const auto add = [&](int y, double sign) {
-    if (!periodic && (y < 0 || y >= n)) return;
-    const double* const row = &values[g.index(0, (y % n + n) % n)];
-    for (std::size_t x = 0; x < nx; ++x) sums[x] += sign * row[x];
-  };
-  for (int y = -half; y < half; ++y) add(y, 1);
-  for (int y = 0; y < n; ++y) {
-    add(y + half, 1);
-    const int count = periodic ? 2 * half + 1 : std::min(y + half + 1, n) - std::max(y - half, 0);
-    double* const row = &result[g.index(0, y)];
-    for (std::size_t x = 0; x < nx; ++x) row[x] = sums[x] / count;
-    add(y - half, -1);
-  }
-  return result;
+/// Three box means along all lines of n values `along` apart; `lines` lines lie `across` apart.
+void smooth(std::vector<double>& values, int n, std::size_t along, int lines, std::size_t across, int half,
+            bool periodic) {
+  tbb::parallel_for(0, (lines + lanes - 1) / lanes, [&](int block) {
+    const int first = block * lanes;
+    const int count = std::min(lanes, lines - first);
+    std::vector<double> here(static_cast<std::size_t>(n * lanes), 0.0);
+    std::vector<double> next(here.size());
+    const auto for_values = [&](auto&& visit) {
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < count; ++k)
+          visit(values[static_cast<std::size_t>(i) * along + static_cast<std::size_t>(first + k) * across],
+                here[static_cast<std::size_t>(i * lanes + k)]);
+    };
+    for_values([](const double& value, double& mine) { mine = value; });
+    for (int pass = 0; pass < 3; ++pass) {
+      box_mean(n, half, periodic, here.data(), next.data());
+      here.swap(next);
+    }
+    for_values([](double& value, const double& mine) { value = mine; });
+  });
 }
 
 }  // namespace
@@ -76,17 +84,10 @@ std::vector<double> dune_surface(const GridGeometry& g, const std::vector<double
                                  bool periodic) {
   if (std::min(g.length_x(), g.length_y()) < 2 * scale) return plane(g, height, periodic);
   std::vector<double> result = height;
-  std::vector<double> row, sums;
   const int half = static_cast<int>(std::lround(scale / g.cell() / 2));
-  for (int pass = 0; pass < 3; ++pass) {
-    for (int y = 0; y < g.ny(); ++y) {
-      const auto first = result.begin() + static_cast<std::ptrdiff_t>(g.index(0, y));
-      row.assign(first, first + g.nx());
-      box_mean(row, half, periodic, sums);
-      std::copy(row.begin(), row.end(), first);
-    }
-    result = box_mean_of_rows(g, result, half, periodic);
-  }
+  const auto row = static_cast<std::size_t>(g.nx());
+  smooth(result, g.nx(), 1, g.ny(), row, half, periodic);
+  smooth(result, g.ny(), row, g.nx(), 1, half, periodic);
   return result;
 }
 

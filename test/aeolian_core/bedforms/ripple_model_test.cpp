@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "aeolian_core/bedforms/impact_angles.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
 
@@ -109,6 +110,30 @@ TEST(RippleModelTest, single_modes_grow_and_move_as_linear_theory_says) {
       EXPECT_NEAR(rate.real() / growth, 1, 0.01) << "ka " << ka << " nu " << c.nu << " mu " << c.mu;
       EXPECT_NEAR(-rate.imag() / k / speed, 1, 0.01) << "ka " << ka << " nu " << c.nu << " mu " << c.mu;
     }
+}
+
+TEST(RippleModelTest, with_impacts_of_several_angles_modes_grow_by_their_mean_cotangent) {
+  const double cell = hop / 20;
+  Forcing forcing = wind();
+  forcing.impact_angle = 12 * degree;
+  for (const double spread : {0.0, 2 * degree, 6 * degree}) {
+    forcing.impact_angle_spread = spread;
+    // Log-normal angles (Gauss-Hermite nodes): the cotangent of the mean angle alone would be 20 % low.
+    const double contrast = 1 / ImpactAngles(forcing.impact_angle, spread).effective_tangent() - 1;
+    const double ka = std::sqrt(std::sqrt(contrast / 0.4) - 1);
+    const int cells = static_cast<int>(std::lround(2 * M_PI / ka * 20)) * 2;
+    const double k = 4 * M_PI / (cells * cell);
+    const GridGeometry g(0, 0, cell, cells, 1);
+    std::vector<double> h(g.size());
+    for (int x = 0; x < cells; ++x) h[g.index(x, 0)] = 1e-7 * std::cos(k * g.x(x));
+    const double duration = 0.2 * unit_time;
+    const std::complex<double> before = amplitude(g, h, k, 0);
+    RippleModel(parameters(Border::periodic, 0.4, 1)).advance(g, h, forcing, duration);
+    const std::complex<double> rate = std::log(amplitude(g, h, k, 0) / before) / duration;
+    const double q = k * hop;
+    const double growth = erosion_rate * (contrast * k * q / (1 + q * q) - 0.4 * hop * k * k);
+    EXPECT_NEAR(rate.real() / growth, 1, 0.01) << spread;
+  }
 }
 
 /// The rate at which a wave of (n, m) periods per side grows (real part) and turns, relative to linear
@@ -450,6 +475,58 @@ TEST(RippleModelTest, hard_ground_is_never_eroded_and_sand_is_conserved_on_it) {
     // What the known cells gained is what the whole bed gained: nothing went into the unknown ones.
     EXPECT_NEAR(total * g.cell() * g.cell(), change.volume.change, 1e-7 * g.cell() * g.cell()) << direction;
   }
+}
+
+TEST(RippleModelTest, the_part_that_is_worked_on_is_worked_on_as_in_the_whole) {
+  // An unknown cell far from the sand has the whole grid worked on.
+  const GridGeometry g(0, 0, 0.002, 500, 400);
+  HeightMap map(g);
+  map.add(layer::elevation);
+  map.add(layer::ground);
+  const std::vector<double> rough = noise(g, 3e-4);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x) {
+      const std::size_t i = g.index(x, y);
+      map.layer(layer::ground)[i] = static_cast<float>(0.002 * std::sin(0.05 * x + 0.03 * y));
+      const bool sand = x >= 220 && x < 280 && y >= 170 && y < 230;
+      map.layer(layer::elevation)[i] =
+          map.layer(layer::ground)[i] + (sand ? static_cast<float>(0.004 + std::abs(rough[i])) : 0.0F);
+    }
+  for (const double direction : {0.4, 2.0, M_PI}) {
+    HeightMap part = map;
+    const BedChange change = RippleModel(RippleParameters{}).advance(part, wind(direction), 60);
+    EXPECT_NEAR(change.volume.error(), 0, 1e-12);
+    HeightMap whole = map;
+    const std::size_t hole = g.index(direction == 0.4 ? 20 : 480, 20);
+    whole.layer(layer::elevation)[hole] = HeightMap::unknown;
+    RippleModel(RippleParameters{}).advance(whole, wind(direction), 60);
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      if (i == hole) continue;
+      ASSERT_NEAR(part.layer(layer::elevation)[i], whole.layer(layer::elevation)[i], 1e-5F)
+          << direction << ' ' << i % 500 << ' ' << i / 500;
+    }
+  }
+}
+
+TEST(RippleModelTest, sheltered_sand_is_left_as_it_is) {
+  // A lee of 28 degrees that shades more than grains hop, and noise that nothing can reach.
+  const GridGeometry g(0, 0, 0.002, 640, 70);
+  const std::vector<double> rough = noise(g, 2e-5);
+  HeightMap map(g);
+  map.add(layer::ground);  // unknown: none
+  HeightMap::Layer& h = map.add(layer::elevation);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      h[g.index(x, y)] =
+          static_cast<float>(0.106 * (1 - std::clamp((x - 200) / 100.0, 0.0, 1.0)) + rough[g.index(x, y)]);
+  const HeightMap::Layer before = h;
+  Forcing forcing = wind();
+  forcing.reptation_length = 0.004;
+  const BedChange change = RippleModel(parameters(Border::open, 0.4, 1)).advance(map, forcing, 20);
+  EXPECT_NEAR(change.volume.error(), 0, 1e-12);
+  for (int y = 0; y < g.ny(); ++y)
+    for (const int x : {250, 300, 350})  // to what rounding to floats hands on
+      EXPECT_NEAR(map.layer(layer::elevation)[g.index(x, y)], before[g.index(x, y)], 1e-8F);
 }
 
 TEST(RippleModelTest, bare_ground_costs_nothing_and_changes_nothing) {
