@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "aeolian_core/bedforms/avalanche.hpp"
@@ -9,7 +10,10 @@
 #include "aeolian_core/bedforms/impact_sweep.hpp"
 #include "aeolian_core/bedforms/lateral_spread.hpp"
 #include "aeolian_core/bedforms/lay_down.hpp"
+#include "aeolian_core/bedforms/long_wave_flux.hpp"
 #include "aeolian_core/bedforms/relief.hpp"
+#include "aeolian_core/bedforms/ripple_growth.hpp"
+#include "aeolian_core/bedforms/slope_bias.hpp"
 #include "aeolian_core/bedforms/slope_flux.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -66,6 +70,27 @@ void store(const std::vector<double>& height, HeightMap::Layer& layer) {
   }
 }
 
+constexpr double steps_per_saturation = 16;  ///< long waves change that slowly
+
+/// The shortest wavelength of a long-wave flux, in those that grow fastest: their growth changes by less than
+/// 0.5 %.
+constexpr double shortest_limit = 1.6;
+
+/// The flux that keeps ripples from growing beyond the law's wavelength. In runs of several winds and grains
+/// they settled at 0.92 times its own wavelength where that was the shortest, and by its cube root less where
+/// it was longer (docs/ripple_model.md).
+std::optional<LongWaveFlux> saturating_flux(const RippleParameters& parameters, const WindFrame& frame,
+                                            double cell, const Forcing& forcing) {
+  if (!parameters.wavelength_law) return std::nullopt;
+  const FastestGrowth growth = fastest_growth(forcing, parameters.hop_shortening, parameters.slope_effect);
+  if (!(growth.rate > 0)) return std::nullopt;
+  const double shortest = shortest_limit * growth.wavelength;
+  const double settled =
+      std::max(1.0, parameters.wavelength_law->final_wavelength(forcing) / (0.92 * shortest));
+  const double wavelength = shortest * std::pow(settled, 1.5);
+  return LongWaveFlux(frame, cell, wavelength, growth.rate * std::pow(wavelength / (2 * M_PI), 2));
+}
+
 }  // namespace
 
 RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(parameters) {
@@ -73,6 +98,8 @@ RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(param
           parameters.slope_effect, "zero or more and finite");
   require(parameters.hop_shortening >= 0 && std::isfinite(parameters.hop_shortening), "hop_shortening",
           parameters.hop_shortening, "zero or more and finite");
+  require(parameters.doubling_slope > 0 && parameters.doubling_slope <= M_PI / 2, "doubling_slope",
+          parameters.doubling_slope, "above zero, at most a right angle");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
   require(parameters.step > 0 && parameters.step <= 1, "step", parameters.step, "above zero, at most one");
@@ -134,6 +161,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   SlopeFlux slopes(frame, cell, slope_scale);
   Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
   const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
+  std::optional<LongWaveFlux> saturation = saturating_flux(parameters_, frame, cell, forcing);
 
   const std::vector<double> start = height;
   FrameField dune, bed;
@@ -155,6 +183,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double dt = duration / steps;
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
+  double unsaturated = 0;  // time in which long waves have grown freely
   for (double step = 0; step < steps; ++step) {
     if (ground.any()) {
       find_sand(bed, ground, active, sandy);
@@ -168,12 +197,21 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     volume.moved += laid.eroded * depth * area;
     volume.inflow += laid.inflow * depth * area;
     volume.outflow += laid.outflow * depth * area;
+    const double strongest =
+        parameters_.doubling_slope < M_PI / 2
+            ? stiffen(frame, cell, std::tan(parameters_.doubling_slope), dune, bed, active, activity)
+            : laid.strongest;
     if (ground.any()) {
-      slopes.run(activity, laid.strongest, dt, ground, active, bed);
+      slopes.run(activity, strongest, dt, ground, active, bed);
       volume.moved += avalanches.run(bed, ground, active);
     } else {
-      slopes.run(activity, laid.strongest, dt, bed);
+      slopes.run(activity, strongest, dt, bed);
       volume.moved += avalanches.run(bed);
+    }
+    unsaturated += dt;
+    if (saturation && (unsaturated >= steps_per_saturation * dt || step + 1 >= steps)) {
+      saturation->run(dune, unsaturated, ground.any() ? &ground : nullptr, active, bed);
+      unsaturated = 0;
     }
   }
   frame.leave(bed, height);

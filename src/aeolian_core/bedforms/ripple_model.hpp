@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <vector>
 
 #include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/wavelength_law.hpp"
 
 namespace aeolian {
 
@@ -21,6 +24,13 @@ struct RippleParameters {
   /// mu, the downslope bias of grains that have come down (specification sec. 5.4). Ripples grow only while
   /// hop_shortening + slope_effect < cot(impact angle). 0.25 to 0.5 forecast the lattice bed best.
   double slope_effect = 0.4;
+  /// Slope at which that bias has doubled [rad]; it grows with the square of the slope (see slope_bias.hpp).
+  /// About 22 degrees forecast the lattice bed best; 4.5 degrees make ripples as flat as nature's, of index
+  /// 15 to 20. A right angle leaves the bias as it is.
+  double doubling_slope = 22 * M_PI / 180;
+  /// Where ripples stop growing; null: nowhere. What is less than 1.5 times the wavelength that grows fastest
+  /// counts as that (docs/ripple_model.md).
+  std::shared_ptr<const WavelengthLaw> wavelength_law;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
   double relief_scale = 0.5;     ///< heights are taken above the surface smoothed over this length [m]
   /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
@@ -37,6 +47,9 @@ struct RippleParameters {
 /// Linear theory on a flat bed, with C = cot(alpha) - nu: growth rate K0 (C k^2 a / (1 + k^2 a^2) - mu a
 /// k^2), phase speed K0 C k^2 a^2 / (1 + k^2 a^2); fastest growth (K0 / a) (sqrt(C) - sqrt(mu))^2 at a
 /// wavelength of 2 pi a / sqrt(sqrt(C / mu) - 1). The model picks its own time steps.
+///
+/// Such ripples merge without end. A wavelength law ends it: waves longer than ripples may be lose height by
+/// long_wave_flux.hpp, calibrated so that the mean wavelength settles at the law's.
 class RippleModel : public BedModel {
  public:
   /// Throws Error naming a parameter outside its range.

@@ -1,0 +1,18 @@
+#include "aeolian_core/bedforms/ripple_growth.hpp"
+
+#include <cmath>
+
+#include "aeolian_core/bedforms/bed_model.hpp"
+
+namespace aeolian {
+
+FastestGrowth fastest_growth(const Forcing& forcing, double hop_shortening, double slope_effect) {
+  const double contrast = 1 / std::tan(forcing.impact_angle) - hop_shortening;
+  const double hop = forcing.reptation_length;
+  if (!(contrast > slope_effect) || !(hop > 0)) return {};
+  const double root = std::sqrt(contrast) - std::sqrt(slope_effect);
+  return {2 * M_PI * hop / std::sqrt(std::sqrt(contrast / slope_effect) - 1),
+          forcing.erosion_rate() / hop * root * root};
+}
+
+}  // namespace aeolian
