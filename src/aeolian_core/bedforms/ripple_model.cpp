@@ -7,6 +7,7 @@
 
 #include "aeolian_core/bedforms/avalanche.hpp"
 #include "aeolian_core/bedforms/hard_ground.hpp"
+#include "aeolian_core/bedforms/impact_noise.hpp"
 #include "aeolian_core/bedforms/impact_sweep.hpp"
 #include "aeolian_core/bedforms/lateral_spread.hpp"
 #include "aeolian_core/bedforms/lay_down.hpp"
@@ -102,6 +103,8 @@ RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(param
           parameters.doubling_slope, "above zero, at most a right angle");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
+  require(parameters.stochastic_share >= 0 && parameters.stochastic_share <= 1, "stochastic_share",
+          parameters.stochastic_share, "0 to 1");
   require(parameters.step > 0 && parameters.step <= 1, "step", parameters.step, "above zero, at most one");
   require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
 }
@@ -146,7 +149,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
 
 BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
                                const std::vector<double>* floor, const std::vector<double>* open,
-                               const Forcing& forcing, double duration) const {
+                               const Forcing& forcing, double duration) {
   const double erosion_rate = forcing.erosion_rate();
   const double hop = forcing.reptation_length;
   if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
@@ -161,6 +164,12 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   SlopeFlux slopes(frame, cell, slope_scale);
   Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
   const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
+  const double grain_volume = std::pow(forcing.grain.effective_diameter(), 3);
+  std::optional<ImpactNoise> noise;
+  if (parameters_.stochastic_share > 0)
+    noise.emplace(frame, cell,
+                  ImpactNoise::Hop{hop, parameters_.lateral_spread * hop, parameters_.hop_shortening},
+                  grain_volume, parameters_.stochastic_share, parameters_.seed);
   std::optional<LongWaveFlux> saturation = saturating_flux(parameters_, frame, cell, forcing);
 
   const std::vector<double> start = height;
@@ -197,6 +206,8 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     volume.moved += laid.eroded * depth * area;
     volume.inflow += laid.inflow * depth * area;
     volume.outflow += laid.outflow * depth * area;
+    const HardGround* const hard = ground.any() ? &ground : nullptr;
+    if (noise) noise->run(impacts, depth, noisy_steps_++, hard, active, bed);
     const double strongest =
         parameters_.doubling_slope < M_PI / 2
             ? stiffen(frame, cell, std::tan(parameters_.doubling_slope), dune, bed, active, activity)
@@ -210,7 +221,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     }
     unsaturated += dt;
     if (saturation && (unsaturated >= steps_per_saturation * dt || step + 1 >= steps)) {
-      saturation->run(dune, unsaturated, ground.any() ? &ground : nullptr, active, bed);
+      saturation->run(dune, unsaturated, hard, active, bed);
       unsaturated = 0;
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct RippleParameters {
   std::shared_ptr<const WavelengthLaw> wavelength_law;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
   double relief_scale = 0.5;     ///< heights are taken above the surface smoothed over this length [m]
+  /// Noise of single grains (see impact_noise.hpp): the share of the cells that draw theirs in a step, 0
+  /// (none) to 1. Less than 1 keeps the variance and costs less; a run that has fewer than 1 / share steps
+  /// leaves cells out.
+  double stochastic_share = 0;
+  std::uint64_t seed = 1;  ///< of the noise; runs of one model go on with the random numbers
   /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
   /// cell. Stable up to 1; docs/ripple_model.md has the error against the step.
   double step = 1;
@@ -64,9 +70,10 @@ class RippleModel : public BedModel {
  private:
   BedChange advance(const GridGeometry& geometry, std::vector<double>& height,
                     const std::vector<double>* floor, const std::vector<double>* open, const Forcing& forcing,
-                    double duration) const;
+                    double duration);
 
   RippleParameters parameters_;
+  std::uint64_t noisy_steps_ = 0;  ///< so far
 };
 
 }  // namespace aeolian
