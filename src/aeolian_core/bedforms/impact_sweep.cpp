@@ -340,8 +340,9 @@ class ImpactSweep::Bundle {
     height(s, station - 1)[line] = height(s, station)[line];
     // Bare ground at the border brings no sand; what is unknown there does.
     const bool bare = task_.ground && passable(station)[line] > 0;
-    stage_[at(s)].begin(law_, line, height(s, station)[line],
-                        bare ? std::min(1.0, movable(station)[line]) : 1.0);
+    double share = bare ? std::min(1.0, movable(station)[line]) : 1.0;
+    if (sweep_.supply_) share *= sweep_.supply_(station, begin_ + line + frame_.place(station).offset);
+    stage_[at(s)].begin(law_, line, height(s, station)[line], share);
   }
 
   void write(int station) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "aeolian_core/bedforms/hard_ground.hpp"
@@ -23,6 +25,11 @@ class ImpactSweep {
  public:
   /// `hop` is the mean reptation length [m].
   ImpactSweep(const WindFrame& frame, double tan_impact_angle, double hop, double shortening);
+
+  /// Share of a flat bed's flux that comes in over an open border at a station, between rows q - 1 and q. 1
+  /// everywhere unless told. Called by several threads.
+  using Supply = std::function<double(int station, int q)>;
+  void set_supply(Supply supply) { supply_ = std::move(supply); }
 
   /// Sweeps a bed over a step in which a flat bed loses `depth` [m]. Heights [m] with pads filled; impacts
   /// see the height above `dune`.
@@ -75,6 +82,7 @@ class ImpactSweep {
   FrameField erosion_, deposition_;
   std::vector<double> seam_in_, seam_out_;
   std::vector<std::vector<Touched>> touched_;  ///< by each bundle
+  Supply supply_;
   double inflow_ = 0;
   double outflow_ = 0;
 };
