@@ -11,8 +11,10 @@ FastestGrowth fastest_growth(const Forcing& forcing, double hop_shortening, doub
   const double hop = forcing.reptation_length;
   if (!(contrast > slope_effect) || !(hop > 0)) return {};
   const double root = std::sqrt(contrast) - std::sqrt(slope_effect);
-  return {2 * M_PI * hop / std::sqrt(std::sqrt(contrast / slope_effect) - 1),
-          forcing.erosion_rate() / hop * root * root};
+  // (k a)^2 of the fastest wave.
+  const double square = std::sqrt(contrast / slope_effect) - 1;
+  return {2 * M_PI * hop / std::sqrt(square), forcing.erosion_rate() / hop * root * root,
+          forcing.erosion_rate() * contrast / (1 + 1 / square)};
 }
 
 }  // namespace aeolian

@@ -8,6 +8,7 @@ struct Forcing;
 struct FastestGrowth {
   double wavelength = 0;  ///< 2 pi a / sqrt(sqrt(C / mu) - 1), C = cot(impact angle) - nu [m]
   double rate = 0;        ///< (K0 / a) (sqrt(C) - sqrt(mu))^2 [1/s]; zero where no wave grows
+  double speed = 0;       ///< (K0 C k^2 a^2) / (1 + k^2 a^2) [m/s]
 };
 
 /// `hop_shortening` nu and `slope_effect` mu as in RippleParameters.

@@ -192,8 +192,14 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   const double dt = duration / steps;
   const double depth = erosion_rate * dt;
   const double area = cell * cell;
+  const FastestGrowth growth = fastest_growth(forcing, parameters_.hop_shortening, parameters_.slope_effect);
+  const Inflow inflow =
+      growth.rate > 0 || parameters_.inflow == Inflow::none ? parameters_.inflow : Inflow::flat_bed;
   double unsaturated = 0;  // time in which long waves have grown freely
   for (double step = 0; step < steps; ++step) {
+    if (!periodic)
+      impacts.set_supply(border_supply(inflow, growth.wavelength, 2 * M_PI * growth.speed / growth.wavelength,
+                                       cell, time_, parameters_.seed));
     if (ground.any()) {
       find_sand(bed, ground, active, sandy);
       clear(active, frame, activity);
@@ -220,6 +226,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
       volume.moved += avalanches.run(bed);
     }
     unsaturated += dt;
+    time_ += dt;
     if (saturation && (unsaturated >= steps_per_saturation * dt || step + 1 >= steps)) {
       saturation->run(dune, unsaturated, hard, active, bed);
       unsaturated = 0;

@@ -6,17 +6,19 @@
 #include <vector>
 
 #include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/border_supply.hpp"
 #include "aeolian_core/bedforms/wavelength_law.hpp"
 
 namespace aeolian {
 
 enum class Border {
   periodic,  ///< opposite borders are joined; needs a fully known map
-  open,      ///< flat-bed supply from upwind, free outflow downwind
+  open,      ///< supply from upwind, free outflow downwind
 };
 
 struct RippleParameters {
   Border border = Border::open;
+  Inflow inflow = Inflow::flat_bed;  ///< over open borders from upwind
   /// nu: hops end early by this share of the rise of the bed over the hop, late by that of its fall.
   /// Reptating grains come down at about 37 degrees (ejecta rise at 0.5 m/s and land at 0.45 down, 0.6
   /// along): 1.33; less 0.3, because a struck slope lets go of its topmost grain, as measured on the lattice
@@ -38,7 +40,7 @@ struct RippleParameters {
   /// (none) to 1. Less than 1 keeps the variance and costs less; a run that has fewer than 1 / share steps
   /// leaves cells out.
   double stochastic_share = 0;
-  std::uint64_t seed = 1;  ///< of the noise; runs of one model go on with the random numbers
+  std::uint64_t seed = 1;  ///< of noise and inflow; runs of one model go on with the random numbers
   /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
   /// cell. Stable up to 1; docs/ripple_model.md has the error against the step.
   double step = 1;
@@ -74,6 +76,7 @@ class RippleModel : public BedModel {
 
   RippleParameters parameters_;
   std::uint64_t noisy_steps_ = 0;  ///< so far
+  double time_ = 0;                ///< moved forward so far [s]
 };
 
 }  // namespace aeolian
