@@ -8,6 +8,7 @@
 int main() {
   aeolian::AccuracyTable table;
   aeolian::theory_rows(table);
+  aeolian::model_rows(table);
   fmt::print(
       "# Accuracy of ripples\n\nPrinted by `./twin bench ripple_accuracy`. Targets are those of Werner "
       "(1987), "

@@ -7,6 +7,7 @@ namespace aeolian {
 /// The parts of docs/accuracy/ripples.md, each in its own file ripple_NAME_rows.cpp.
 /// @{
 void theory_rows(AccuracyTable& table);  ///< kinematics, worms, collisions, mergers, Haff's bed (rows 13-23)
+void model_rows(AccuracyTable& table);   ///< the height-map model (rows 28, 30, 32-34), any wind, any grid
 /// @}
 
 }  // namespace aeolian

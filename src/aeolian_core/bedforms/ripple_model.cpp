@@ -78,8 +78,8 @@ constexpr double steps_per_saturation = 16;  ///< long waves change that slowly
 constexpr double shortest_limit = 1.6;
 
 /// The flux that keeps ripples from growing beyond the law's wavelength. In runs of several winds and grains
-/// they settled at 0.92 times its own wavelength where that was the shortest, and by its cube root less where
-/// it was longer (docs/ripple_model.md).
+/// they settled at 0.865 times its own wavelength where that was the shortest, and by its cube root less
+/// where it was longer (docs/ripple_model.md).
 std::optional<LongWaveFlux> saturating_flux(const RippleParameters& parameters, const WindFrame& frame,
                                             double cell, const Forcing& forcing) {
   if (!parameters.wavelength_law) return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<LongWaveFlux> saturating_flux(const RippleParameters& parameters, 
   if (!(growth.rate > 0)) return std::nullopt;
   const double shortest = shortest_limit * growth.wavelength;
   const double settled =
-      std::max(1.0, parameters.wavelength_law->final_wavelength(forcing) / (0.92 * shortest));
+      std::max(1.0, parameters.wavelength_law->final_wavelength(forcing) / (0.865 * shortest));
   const double wavelength = shortest * std::pow(settled, 1.5);
   return LongWaveFlux(frame, cell, wavelength, growth.rate * std::pow(wavelength / (2 * M_PI), 2));
 }

@@ -31,7 +31,7 @@ struct RippleParameters {
   /// About 22 degrees forecast the lattice bed best; 4.5 degrees make ripples as flat as nature's, of index
   /// 15 to 20. A right angle leaves the bias as it is.
   double doubling_slope = 22 * M_PI / 180;
-  /// Where ripples stop growing; null: nowhere. What is less than 1.5 times the wavelength that grows fastest
+  /// Where ripples stop growing; null: nowhere. What is less than 1.4 times the wavelength that grows fastest
   /// counts as that (docs/ripple_model.md).
   std::shared_ptr<const WavelengthLaw> wavelength_law;
   double lateral_spread = 0.25;  ///< standard deviation of a hop across the wind / mean reptation length
