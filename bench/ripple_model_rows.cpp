@@ -287,7 +287,7 @@ void saturation(AccuracyTable& table) {
   table.section("Saturation and mature shape (row 32)",
                 "Beds 14 wavelengths long and 16 cells wide, with cells of a/5, after 50, 100 and 150 growth "
                 "times of the fastest wave; the bias doubles at "
-                "4.5°, as for ripples as flat as nature's. Height: 2 √2 standard deviations; slopes: 90 % of "
+                "4°, as for ripples as flat as nature's. Height: 2 √2 standard deviations; slopes: 90 % of "
                 "rises or falls lie "
                 "below. Laws: constant 250 d; linear 250 d (u*/u*t - 1).");
   struct Case {
@@ -305,7 +305,7 @@ void saturation(AccuracyTable& table) {
     const Case& c = cases[static_cast<std::size_t>(i)];
     const Forcing forcing = blown(c.wind, c.diameter);
     RippleParameters p = periodic_parameters();
-    p.doubling_slope = 4.5 * degree;
+    p.doubling_slope = 4 * degree;
     p.wavelength_law = make_wavelength_law(c.law, 250);
     const FastestGrowth growth = fastest_growth(forcing, p.hop_shortening, p.slope_effect);
     Result result{std::max(p.wavelength_law->final_wavelength(forcing), 1.384 * growth.wavelength),

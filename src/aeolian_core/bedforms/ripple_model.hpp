@@ -28,7 +28,7 @@ struct RippleParameters {
   /// hop_shortening + slope_effect < cot(impact angle). 0.25 to 0.5 forecast the lattice bed best.
   double slope_effect = 0.4;
   /// Slope at which that bias has doubled [rad]; it grows with the square of the slope (see slope_bias.hpp).
-  /// About 22 degrees forecast the lattice bed best; 4.5 degrees make ripples as flat as nature's, of index
+  /// About 22 degrees forecast the lattice bed best; 4 degrees make ripples as flat as nature's, of index
   /// 15 to 20. A right angle leaves the bias as it is.
   double doubling_slope = 22 * M_PI / 180;
   /// Where ripples stop growing; null: nowhere. What is less than 1.4 times the wavelength that grows fastest
@@ -44,6 +44,15 @@ struct RippleParameters {
   /// The longest step, in the time in which a flat bed loses the depth that a falling grain sinks over one
   /// cell. Stable up to 1; docs/ripple_model.md has the error against the step.
   double step = 1;
+  /// Steps are shortened until their error, estimated every 16 steps on the whole bed, is below this [m/s,
+  /// RMS of the heights]; 0: never.
+  double error_bound = 0;
+};
+
+/// How far a model has come; its runs go on from there.
+struct RippleClock {
+  double time = 0;                ///< moved forward [s]
+  std::uint64_t noisy_steps = 0;  ///< that have drawn random numbers
 };
 
 /// Ripples on a height map: impacts at a grazing angle fall on exposed slopes only, each sets grains
@@ -75,8 +84,7 @@ class RippleModel : public BedModel {
                     double duration);
 
   RippleParameters parameters_;
-  std::uint64_t noisy_steps_ = 0;  ///< so far
-  double time_ = 0;                ///< moved forward so far [s]
+  RippleClock clock_;
 };
 
 }  // namespace aeolian

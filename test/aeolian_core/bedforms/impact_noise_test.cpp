@@ -127,7 +127,7 @@ TEST(ImpactNoiseTest, the_mean_of_many_noisy_runs_is_the_run_without) {
     error += mean * mean * members;
     spread += square[i] / members - mean * mean;
   }
-  EXPECT_NEAR(std::sqrt(spread / static_cast<double>(g.size())), 6.5e-5, 1e-5);
+  EXPECT_GT(std::sqrt(spread / static_cast<double>(g.size())), 5e-5);
   EXPECT_NEAR(error / spread, 1, 4 * std::sqrt(2.0 * 20 / static_cast<double>(g.size())));
 }
 

@@ -111,7 +111,7 @@ TEST(RippleSaturationTest, a_stiff_bias_makes_ripples_as_flat_as_nature) {
   const FastestGrowth growth = growth_of(forcing);
   const GridGeometry g(0, 0, 0.0025, 200, 8);
   RippleParameters p = saturating(forcing, 1.7 * growth.wavelength);
-  p.doubling_slope = 4.5 * degree;
+  p.doubling_slope = 4 * degree;
   std::vector<double> h = noise(g, 2e-4);
   RippleModel(p).advance(g, h, forcing, 60 / growth.rate);
   const HeightMap::Layer elevation(h.begin(), h.end());
