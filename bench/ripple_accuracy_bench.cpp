@@ -9,6 +9,7 @@ int main() {
   aeolian::AccuracyTable table;
   aeolian::theory_rows(table);
   aeolian::lattice_rows(table);
+  aeolian::model_rows(table);
   aeolian::tracking_rows(table);
   aeolian::sorting_rows(table);
   fmt::print(

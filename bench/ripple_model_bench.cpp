@@ -103,5 +103,27 @@ void step(benchmark::State& state) {
 }
 BENCHMARK(step)->Arg(2)->Arg(4)->Arg(8)->Arg(12)->Arg(16)->Unit(benchmark::kMillisecond);
 
+/// A plot of 1 m x 0.5 m with the noise of single grains; the argument is the share of the cells that draw
+/// theirs in a step, in percent.
+void stochastic(benchmark::State& state) {
+  const GridGeometry g(0, 0, 0.002, 500, 250);
+  Grain grain;
+  grain.diameter = 0.0004;
+  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  RippleParameters p;
+  p.stochastic_share = static_cast<double>(state.range(0)) / 100;
+  std::vector<double> start(g.size());
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      start[g.index(x, y)] = 0.003 * std::sin(60 * g.x(x) + std::sin(9 * g.y(y)));
+  for (auto _ : state) {
+    std::vector<double> h = start;
+    RippleModel(p).advance(g, h, forcing, 300);
+    benchmark::DoNotOptimize(h.data());
+  }
+  state.counters["times_real_time"] = benchmark::Counter(300, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(stochastic)->Arg(0)->Arg(10)->Arg(100)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace aeolian

@@ -83,8 +83,8 @@ SweepTask ImpactSweep::task(const FrameField& bed, const FrameField& dune, const
   const int first = frame_.periodic()
                         ? -shade - static_cast<int>(std::ceil(24 / -std::log(law_.carried))) - stage_stations
                         : 0;
-  return {frame_, law_,  bed,      dune,        ground,   sandy,    depth,
-          first,  shade, erosion_, deposition_, seam_in_, seam_out_};
+  return {frame_, law_,  bed,     dune,     ground,      sandy,    depth,
+          first,  shade, supply_, erosion_, deposition_, seam_in_, seam_out_};
 }
 
 void ImpactSweep::run(const FrameField& bed, const FrameField& dune, double depth) {

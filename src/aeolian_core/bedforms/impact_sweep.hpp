@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "aeolian_core/bedforms/hard_ground.hpp"
@@ -22,6 +23,10 @@ class ImpactSweep {
  public:
   /// `hop` is the mean reptation length [m].
   ImpactSweep(const WindFrame& frame, const ImpactAngles& angles, double hop, double shortening);
+
+  using Supply = SweepTask::Supply;
+  /// 1 everywhere unless told. Called by several threads.
+  void set_supply(Supply supply) { supply_ = std::move(supply); }
 
   /// Sweeps a bed over a step in which a flat bed loses `depth` [m]. Heights [m] with pads filled; impacts
   /// see the height above `dune`.
@@ -53,6 +58,7 @@ class ImpactSweep {
   HopLaw law_;
   FrameField erosion_, deposition_;
   std::vector<double> seam_in_, seam_out_;
+  Supply supply_;
   double inflow_ = 0;
   double outflow_ = 0;
 };

@@ -5,15 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "aeolian_core/bedforms/avalanche.hpp"
-#include "aeolian_core/bedforms/hard_ground.hpp"
-#include "aeolian_core/bedforms/impact_sweep.hpp"
-#include "aeolian_core/bedforms/lateral_spread.hpp"
-#include "aeolian_core/bedforms/lay_down.hpp"
 #include "aeolian_core/bedforms/relief.hpp"
+#include "aeolian_core/bedforms/ripple_motion.hpp"
 #include "aeolian_core/bedforms/sand_reach.hpp"
-#include "aeolian_core/bedforms/slope_flux.hpp"
-#include "aeolian_core/bedforms/wind_frame.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -22,29 +16,6 @@ namespace {
 void require(bool allowed, const char* name, double value, const char* range) {
   if (!allowed)
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
-}
-
-/// Says anew of the active patches whether sand lies there that can move.
-void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatches& active,
-               ActivePatches& sandy) {
-  active.for_all([&](int station, int patch, int begin, int end) {
-    bool any = false;
-    for (int row = begin; row < end; ++row)
-      any = any || (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] >
-                       least_movable;
-    sandy.set(station, patch, any);
-  });
-}
-
-void clear(const ActivePatches& active, const WindFrame& frame, FrameField& field) {
-  for (int station = 0; station < frame.stations(); ++station) {
-    bool any = false;
-    active.for_runs(station, [&](int begin, int end) {
-      std::fill(field.at(station) + begin, field.at(station) + end, 0.0);
-      any = true;
-    });
-    if (any) field.fill_pads(station, frame.periodic());
-  }
 }
 
 TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
@@ -67,6 +38,9 @@ void store(const std::vector<double>& height, HeightMap::Layer& layer) {
   }
 }
 
+constexpr int steps_per_estimate = 16;      ///< of their error, which costs one step
+constexpr double shortest_step = 1.0 / 64;  ///< of the longest
+
 }  // namespace
 
 RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(parameters) {
@@ -74,9 +48,15 @@ RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(param
           parameters.slope_effect, "zero or more and finite");
   require(parameters.hop_shortening >= 0 && std::isfinite(parameters.hop_shortening), "hop_shortening",
           parameters.hop_shortening, "zero or more and finite");
+  require(parameters.doubling_slope > 0 && parameters.doubling_slope <= M_PI / 2, "doubling_slope",
+          parameters.doubling_slope, "above zero, at most a right angle");
   require(parameters.lateral_spread >= 0 && std::isfinite(parameters.lateral_spread), "lateral_spread",
           parameters.lateral_spread, "zero or more and finite");
+  require(parameters.stochastic_share >= 0 && parameters.stochastic_share <= 1, "stochastic_share",
+          parameters.stochastic_share, "0 to 1");
   require(parameters.step > 0 && parameters.step <= 1, "step", parameters.step, "above zero, at most one");
+  require(parameters.error_bound >= 0 && std::isfinite(parameters.error_bound), "error_bound",
+          parameters.error_bound, "zero or more and finite");
   require(parameters.relief_scale > 0, "relief_scale", parameters.relief_scale, "positive");
 }
 
@@ -118,107 +98,63 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   return advance(geometry, height, nullptr, nullptr, forcing, duration);
 }
 
-/// What a run works on: the whole grid, or on hard ground the part that sand may reach.
-struct RippleModel::Run {
-  const Forcing& forcing;
-  const std::vector<double>* floor;
-  const std::vector<double>* open;
-  bool holes;
-  const std::vector<double>& dune;
-  const SandReach& reach;
-  double cell;
-  double dt;
-};
+/// Makes steps for so long [s], or until sand may leave the part of the grid in motion. Returns the time
+/// left.
+double RippleModel::run(RippleMotion& motion, const SandReach& reach, double left) {
+  const double longest = motion.longest_step();
+  double wanted = longest;
+  for (int step = 0; left > 0; ++step) {
+    if (step > 0 && motion.may_leave(reach)) break;
+    const double steps = std::max(1.0, std::ceil(left / wanted * (1 - 1e-12)));
+    const double dt = left / steps;
+    if (parameters_.error_bound > 0 && step % steps_per_estimate == 0) {
+      const double error_rate = motion.step_and_compare(dt, clock_) / dt;
+      const double within = dt * parameters_.error_bound / error_rate;
+      wanted = std::clamp(within, shortest_step * longest, longest);
+    } else {
+      motion.step(dt, clock_);
+    }
+    left = steps > 1 ? left - dt : 0;
+  }
+  motion.finish();
+  return left;
+}
 
 BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
                                const std::vector<double>* floor, const std::vector<double>* open,
-                               const Forcing& forcing, double duration) const {
-  const double erosion_rate = forcing.erosion_rate();
-  const double hop = forcing.reptation_length;
-  if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
-
+                               const Forcing& forcing, double duration) {
+  if (forcing.erosion_rate() * forcing.reptation_length * duration == 0) return {TileMask(geometry), {}};
   const bool periodic = parameters_.border == Border::periodic;
-  const ImpactAngles angles(forcing.impact_angle, forcing.impact_angle_spread);
   const WindFrame whole(geometry, forcing.direction, periodic);
   const std::vector<double> dune = dune_surface(geometry, height, parameters_.relief_scale, periodic);
-  const int aside = LateralSpread(whole, parameters_.lateral_spread * hop / geometry.cell()).reach_across();
-  const SandReach reach(geometry, forcing.direction, hop, aside, angles.least_tangent());
   const bool holes = open && std::find(open->begin(), open->end(), 0.0) != open->end();
-  const double steps = std::max(
-      1.0,
-      std::ceil(duration * erosion_rate / (parameters_.step * whole.step() * angles.effective_tangent())));
-  const Run run{forcing, floor, open, holes, dune, reach, geometry.cell(), duration / steps};
+  const RippleSetting setting{parameters_, forcing, geometry.cell(), dune, floor, open, holes};
+  const SandReach reach(geometry, forcing.direction, forcing.reptation_length,
+                        reach_aside(parameters_, forcing, whole, geometry.cell()),
+                        ImpactAngles(forcing.impact_angle, forcing.impact_angle_spread).least_tangent());
+  // What a part does not see of the whole must not matter to it.
+  const bool in_parts = floor && !holes && !periodic && parameters_.stochastic_share == 0 &&
+                        parameters_.inflow != Inflow::ripples;
 
   const std::vector<double> start = height;
   VolumeBalance volume;
-  for (double step = 0; step < steps;) {
+  for (double left = duration; left > 0;) {
     std::optional<CellRange> part = CellRange{0, geometry.nx(), 0, geometry.ny()};
-    if (floor && !holes && !periodic) part = reach.range(height, *floor, dune);
-    if (!part) break;
-    step += advance(run, whole.part(*part), steps - step, height, volume);
+    if (in_parts) part = reach.range(height, *floor, dune);
+    if (!part) {
+      clock_.time += left;
+      break;
+    }
+    RippleMotion motion(setting, whole.part(*part), height);
+    left = run(motion, reach, left);
+    motion.leave(height);
+    volume.moved += motion.volume().moved;
+    volume.inflow += motion.volume().inflow;
+    volume.outflow += motion.volume().outflow;
   }
   for (std::size_t i = 0; i < height.size(); ++i)
     volume.change += (height[i] - start[i]) * geometry.cell() * geometry.cell();
   return {changed_tiles(geometry, start, height), volume};
-}
-
-double RippleModel::advance(const Run& run, const WindFrame& frame, double steps, std::vector<double>& height,
-                            VolumeBalance& volume) const {
-  const double hop = run.forcing.reptation_length;
-  const double cell = run.cell;
-  const double tan_repose = std::tan(run.forcing.grain.angle_of_repose);
-  const double slope_scale = parameters_.slope_effect * hop * run.forcing.erosion_rate();
-  const ImpactAngles angles(run.forcing.impact_angle, run.forcing.impact_angle_spread);
-  ImpactSweep impacts(frame, angles, hop, parameters_.hop_shortening);
-  SlopeFlux slopes(frame, cell, slope_scale);
-  Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, frame.periodic());
-  const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
-
-  FrameField dune, bed;
-  FrameField activity(frame.stations(), frame.rows());
-  frame.enter(run.dune, dune);
-  frame.enter(height, bed);
-  HardGround ground;
-  if (run.floor) {
-    frame.enter(*run.floor, ground.floor);
-    frame.enter(*run.open, ground.open);
-    for (int i = 0; i < frame.stations(); ++i) ground.open.fill_mirrored_pads(i, frame.periodic());
-    ground.holes = run.holes;
-  }
-  ActivePatches active(frame.stations(), frame.rows());
-  ActivePatches sandy = active;
-
-  const double dt = run.dt;
-  const double depth = run.forcing.erosion_rate() * dt;
-  const double area = cell * cell;
-  double step = 0;
-  for (; step < steps; ++step) {
-    if (ground.any()) {
-      find_sand(bed, ground, active, sandy);
-      if (step > 0 && !run.reach.stays_within(frame, sandy)) break;
-      clear(active, frame, activity);
-      impacts.run(bed, dune, ground, sandy, depth, active);
-    } else {
-      impacts.run(bed, dune, depth);
-    }
-    const LaidDown laid =
-        lay_down(frame, impacts, spread, depth, ground.any() ? &ground.open : nullptr, active, bed, activity);
-    volume.moved += laid.eroded * depth * area;
-    volume.inflow += laid.inflow * depth * area;
-    volume.outflow += laid.outflow * depth * area;
-    if (ground.any()) {
-      slopes.run(activity, laid.strongest, dt, ground, active, bed);
-      // What no grain reaches may have been steep from the first.
-      if (step == 0)
-        sandy.for_all([&](int station, int patch, int, int) { active.set(station, patch, true); });
-      volume.moved += avalanches.run(bed, ground, active);
-    } else {
-      slopes.run(activity, laid.strongest, dt, bed);
-      volume.moved += avalanches.run(bed);
-    }
-  }
-  frame.leave(bed, height);
-  return step;
 }
 
 }  // namespace aeolian

@@ -317,6 +317,8 @@ class Bundle {
       share = 0;
     else if (task_.ground && passable(station)[line] > 0)
       share = std::min(1.0, movable(station)[line]);
+    if (task_.supply && share > 0)
+      share *= task_.supply(station, begin_ + line + frame_.place(station).offset);
     stage_[at(s)].begin(law_, line, height(s, station)[line], share);
   }
 

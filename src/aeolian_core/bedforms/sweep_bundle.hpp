@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "aeolian_core/bedforms/hard_ground.hpp"
@@ -10,6 +11,9 @@ namespace aeolian {
 
 /// What an ImpactSweep has its bundles of lines do.
 struct SweepTask {
+  /// Share of a flat bed's flux that comes in over an open border at a station, between rows q - 1 and q.
+  using Supply = std::function<double(int station, int q)>;
+
   const WindFrame& frame;
   const HopLaw& law;
   const FrameField& bed;
@@ -19,6 +23,8 @@ struct SweepTask {
   double depth;                ///< that a flat bed loses [m]
   int first;                   ///< station where lines begin: before the grid on a periodic one
   int shade;  ///< stations that the longest shadow may cover; all where sand comes over unknown cells
+
+  const Supply& supply;  ///< empty: 1 everywhere
 
   FrameField& erosion;  ///< results, see ImpactSweep
   FrameField& deposition;

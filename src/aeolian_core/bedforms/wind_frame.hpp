@@ -20,8 +20,8 @@ class WindFrame {
   /// `periodic` rounds the drift so that lines close after one period.
   WindFrame(const GridGeometry& geometry, double direction, bool periodic);
 
-  /// The frame of a part of an open grid, whose lines lie where those of the whole do. The part is taken wider,
-  /// to begin at a multiple of `alignment` stations and rows of the whole.
+  /// The frame of a part of an open grid, whose lines lie where those of the whole do. The part is taken
+  /// wider, to begin at a multiple of `alignment` stations and rows of the whole.
   static constexpr int alignment = 32;
   WindFrame part(const CellRange& cells) const;
 

@@ -61,6 +61,13 @@ class Forecaster : public Node {
     RippleParameters ripple;
     ripple.hop_shortening = parameters().number("hop_shortening");
     ripple.slope_effect = parameters().number("slope_effect");
+    ripple.doubling_slope = degrees_to_radians(parameters().number("doubling_slope_deg"));
+    ripple.wavelength_law =
+        make_wavelength_law(parameters().text("wavelength_law"), parameters().number("wavelength_diameters"));
+    const std::string& inflow = parameters().text("inflow");
+    ripple.inflow = inflow == "none"      ? Inflow::none
+                    : inflow == "ripples" ? Inflow::ripples
+                                          : Inflow::flat_bed;
     ripple.lateral_spread = parameters().number("lateral_spread");
     ripple.relief_scale = parameters().number("relief_scale");
     model_ = std::make_unique<RippleModel>(ripple);
@@ -274,6 +281,22 @@ NodeDescription describe_forecaster() {
           {"hop_shortening", ripple.hop_shortening, "", "hops end early by this share of the bed's rise",
            Limits::not_negative()},
           {"slope_effect", ripple.slope_effect, "", "downslope bias of reptation", Limits::not_negative()},
+          {"doubling_slope_deg", 22.0, "degrees", "slope at which the downslope bias has doubled",
+           Limits::between(1, 90)},
+          {"wavelength_law",
+           std::string("constant"),
+           "",
+           "where ripples stop growing: nowhere, alike in every wind, or linear in the friction velocity",
+           {},
+           {"none", "constant", "linear"}},
+          {"wavelength_diameters", 250.0, "grain diameters",
+           "final wavelength; of the linear law, at twice the impact threshold", Limits::positive()},
+          {"inflow",
+           std::string("flat_bed"),
+           "",
+           "what comes in from upwind: as from a flat bed, nothing, or a random train of ripples",
+           {},
+           {"flat_bed", "none", "ripples"}},
           {"lateral_spread", ripple.lateral_spread, "", "spread of a hop across the wind / mean length",
            Limits::not_negative()},
           {"relief_scale", ripple.relief_scale, "m", "heights count above the surface smoothed over this",
