@@ -43,6 +43,27 @@ AEOLIAN_KERNEL bool any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double
   return any != 0;
 }
 
+/// Lowers and raises the limits of heights and floors by those of some rows. Whether all are open.
+AEOLIAN_KERNEL bool lies_deep(std::ptrdiff_t count, const double* __restrict h,
+                              const double* __restrict floor, const double* __restrict open, double& lowest,
+                              double& highest_floor) {
+  constexpr int lanes = 8;
+  double low[lanes], high[lanes], least_open[lanes];
+  std::fill_n(low, lanes, lowest);
+  std::fill_n(high, lanes, highest_floor);
+  std::fill_n(least_open, lanes, 1.0);
+  const std::ptrdiff_t whole = count / lanes * lanes;
+  for (std::ptrdiff_t i = 0; i < count; i += i < whole ? lanes : 1)
+    for (int k = 0; k < (i < whole ? lanes : 1); ++k) {
+      low[k] = h[i + k] < low[k] ? h[i + k] : low[k];
+      high[k] = floor[i + k] > high[k] ? floor[i + k] : high[k];
+      least_open[k] = open[i + k] < least_open[k] ? open[i + k] : least_open[k];
+    }
+  lowest = *std::min_element(low, low + lanes);
+  highest_floor = *std::max_element(high, high + lanes);
+  return *std::min_element(least_open, least_open + lanes) > 0;
+}
+
 /// Exchange between h[i] and other[i].
 AEOLIAN_KERNEL void relax_pairs(std::ptrdiff_t count, double straight, double* __restrict h,
                                 double* __restrict other, double* __restrict moved) {
@@ -138,8 +159,25 @@ void Avalanches::disturb(int station, int patch, int begin, int end) {
   }
 }
 
-/// As relax(), cell by cell: slides of sand on rock are few.
+/// Whether the ground is open and nowhere higher than the lowest bed in reach of a patch's slides, so that
+/// they cannot run out of sand.
+bool Avalanches::is_deep(const FrameField& height, const HardGround& ground, int station, int patch) const {
+  const int begin = patch * patch_rows;
+  const int count = std::min(patch_rows, rows_ - begin);
+  if (periodic_ && begin + count == rows_) return false;
+  const int there = begin + count == rows_ ? count : count + 1;
+  double lowest = height.at(station)[begin];
+  double highest_floor = ground.floor.at(station)[begin];
+  for (const int i : {station, next(station)})
+    if (!lies_deep(there, height.at(i) + begin, ground.floor.at(i) + begin, ground.open.at(i) + begin, lowest,
+                   highest_floor))
+      return false;
+  return highest_floor <= lowest;
+}
+
+/// As relax(), cell by cell.
 double Avalanches::relax_on_ground(FrameField& height, const HardGround& ground, int station, int patch) {
+  if (is_deep(height, ground, station, patch)) return relax(height, station, patch);
   const int begin = patch * patch_rows;
   const int end = std::min(begin + patch_rows, rows_);
   const int behind = next(station);

@@ -29,6 +29,7 @@ class Avalanches {
   int next(int station) const;
   bool steep(const FrameField& height, int station, int patch) const;
   double relax(FrameField& height, int station, int patch);
+  bool is_deep(const FrameField& height, const HardGround& ground, int station, int patch) const;
   double relax_on_ground(FrameField& height, const HardGround& ground, int station, int patch);
   template <class Relax>
   double relax_strip(const FrameField& height, int begin, int end, Relax&& relax);

@@ -8,6 +8,9 @@
 
 namespace aeolian {
 
+/// Depth of sand of which less does not move [m], far less than a grain.
+constexpr double least_movable = 1e-6;
+
 /// What of a bed cannot move, in a wind frame with pads filled. A bed without any has empty fields, and runs
 /// without looking at them.
 struct HardGround {

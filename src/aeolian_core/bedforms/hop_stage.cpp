@@ -8,88 +8,119 @@
 namespace aeolian {
 namespace {
 
-AEOLIAN_KERNEL void sweep_lines(const HopLaw& given, std::ptrdiff_t count, const double* __restrict h,
-                                const double* __restrict h1, const double* __restrict h2,
-                                double* __restrict envelope, double* __restrict exposure,
-                                double* __restrict last_erosion, double* __restrict grains,
-                                double* __restrict heights, const double* __restrict flux,
-                                double* __restrict flux_before, double* __restrict in, double* __restrict out,
-                                double* __restrict erosion, double* __restrict deposition) {
+using Memory = HopStage::Memory;
+using Stations = HopStage::Stations;
+using Ground = HopStage::Ground;
+
+/// Sand that is deep everywhere.
+struct DeepSand {
+  AEOLIAN_INLINE double eroded(double struck, std::ptrdiff_t) const { return struck; }
+  AEOLIAN_INLINE double carried(const HopLaw& law, std::ptrdiff_t) const { return law.carried; }
+  AEOLIAN_INLINE double leaves(double raw, double, double, std::ptrdiff_t) const { return raw; }
+};
+
+struct HardGroundLines {
+  const double* __restrict movable;
+  const double* __restrict open1;
+  const double* __restrict open2;
+
+  AEOLIAN_INLINE double eroded(double struck, std::ptrdiff_t i) const {
+    return struck < movable[i] ? struck : movable[i];
+  }
+  AEOLIAN_INLINE double carried(const HopLaw& law, std::ptrdiff_t i) const {
+    return 1 - open1[i] * (1 - law.carried);
+  }
+  /// No more than comes in and is let go, and all that comes in where nothing can rest.
+  AEOLIAN_INLINE double leaves(double raw, double enters, double lost, std::ptrdiff_t i) const {
+    const double most = enters + lost;
+    const double positive = raw > 0 ? raw : 0;
+    const double limited = positive < most ? positive : most;
+    return open2[i] > 0 ? limited : enters;
+  }
+};
+
+template <int angles>
+AEOLIAN_INLINE double exposed(const HopLaw& law, Memory& m, double height, std::ptrdiff_t i) {
+  double sum = 0;
+  for (int n = 0; n < angles; ++n) {
+    const double fallen = m.envelope[n][i] - law.drop[n];
+    const double top = fallen > height ? fallen : height;
+    m.envelope[n][i] = top;
+    const double part = (top - fallen) * law.exposed_per_height[n];
+    sum = n == 0 ? part : sum + part;
+  }
+  return sum;
+}
+
+/// `now` is which of two in turn is written.
+template <int angles, int now, class Bed>
+AEOLIAN_INLINE void sweep_lines(const HopLaw& given, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                Memory& __restrict m, const Stations& at, const Bed& bed) {
   const HopLaw law = given;
-  const double per_drop = 1 / law.drop;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
+  const double* __restrict const h = at.height;
+  const double* __restrict const h1 = at.height_1;
+  const double* __restrict const h2 = at.height_2;
+  double* __restrict const erosion = at.erosion_1;
+  const double* __restrict const erosion2 = at.erosion_2;
+  double* __restrict const deposition = at.deposition_2;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = begin; i < end; ++i) {
     // Exposure of the stretch that ends here.
-    const double fallen = envelope[i] - law.drop;
-    const double top = fallen > h[i] ? fallen : h[i];
-    const double here = (top - fallen) * per_drop;
-    envelope[i] = top;
+    const double here = exposed<angles>(law, m, h[i], i);
     // Station k - 1: erosion, and the flux behind it.
-    const double e = 0.5 * (exposure[i] + here);
-    exposure[i] = here;
+    const double e = bed.eroded(0.5 * (m.exposure[i] + here), i);
+    m.exposure[i] = here;
     const double launched = law.launched * e;
-    const double f = law.carried * grains[i] + launched;
-    const double g = law.carried * heights[i] + launched * ((h[i] + h2[i] + 4 * h1[i]) * (1.0 / 6));
-    grains[i] = f;
-    heights[i] = g;
+    const double carried = bed.carried(law, i);
+    const double f = carried * m.grains[i] + launched;
+    const double g = carried * m.heights[i] + launched * ((h[i] + h2[i] + 4 * h1[i]) * (1.0 / 6));
+    m.grains[i] = f;
+    m.heights[i] = g;
     const double through =
         f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
     // Station k - 2: what comes in, goes out and stays.
-    const double leaves =
-        law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
-    flux_before[i] = through;
-    const double enters = out[i];
-    in[i] = enters;
-    out[i] = leaves;
-    const double lost = last_erosion[i];
-    last_erosion[i] = e;
-    erosion[i] = lost;
+    const double raw =
+        law.flux_here * m.flux[1 - now][i] + law.flux_downwind * through + law.flux_upwind * m.flux[now][i];
+    m.flux[now][i] = through;
+    const double enters = m.out[1 - now][i];
+    const double lost = erosion2[i];
+    const double leaves = bed.leaves(raw, enters, lost, i);
+    m.out[now][i] = leaves;
+    erosion[i] = e;
     deposition[i] = lost + (enters - leaves);
   }
 }
 
-AEOLIAN_KERNEL void sweep_hard_lines(const HopLaw& given, std::ptrdiff_t count, const double* __restrict h,
-                                     const double* __restrict h1, const double* __restrict h2,
-                                     const double* __restrict movable, const double* __restrict open1,
-                                     const double* __restrict open2, double* __restrict envelope,
-                                     double* __restrict exposure, double* __restrict last_erosion,
-                                     double* __restrict grains, double* __restrict heights,
-                                     const double* __restrict flux, double* __restrict flux_before,
-                                     double* __restrict in, double* __restrict out,
-                                     double* __restrict erosion, double* __restrict deposition) {
-  const HopLaw law = given;
-  const double per_drop = 1 / law.drop;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double fallen = envelope[i] - law.drop;
-    const double top = fallen > h[i] ? fallen : h[i];
-    const double here = (top - fallen) * per_drop;
-    envelope[i] = top;
-    const double struck = 0.5 * (exposure[i] + here);
-    const double e = struck < movable[i] ? struck : movable[i];
-    exposure[i] = here;
-    const double launched = law.launched * e;
-    const double carried = 1 - open1[i] * (1 - law.carried);
-    const double f = carried * grains[i] + launched;
-    const double g = carried * heights[i] + launched * ((h[i] + h2[i] + 4 * h1[i]) * (1.0 / 6));
-    grains[i] = f;
-    heights[i] = g;
-    const double through =
-        f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
-    const double raw =
-        law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
-    flux_before[i] = through;
-    const double enters = out[i];
-    const double lost = last_erosion[i];
-    // No more leaves than comes in and is let go, and all that comes in where nothing can rest.
-    const double most = enters + lost;
-    const double positive = raw > 0 ? raw : 0;
-    const double limited = positive < most ? positive : most;
-    const double leaves = open2[i] > 0 ? limited : enters;
-    in[i] = enters;
-    out[i] = leaves;
-    last_erosion[i] = e;
-    erosion[i] = lost;
-    deposition[i] = lost + (enters - leaves);
-  }
+template <int angles, class Bed>
+AEOLIAN_INLINE void sweep_in_turn(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                  Memory& m, const Stations& at, const Bed& bed) {
+  if (now == 0)
+    sweep_lines<angles, 0>(law, begin, end, m, at, bed);
+  else
+    sweep_lines<angles, 1>(law, begin, end, m, at, bed);
+}
+
+AEOLIAN_KERNEL void sweep_sand(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                               Memory& m, const Stations& at) {
+  sweep_in_turn<1>(law, now, begin, end, m, at, DeepSand{});
+}
+
+AEOLIAN_KERNEL void sweep_sand_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                         Memory& m, const Stations& at) {
+  sweep_in_turn<ImpactAngles::most>(law, now, begin, end, m, at, DeepSand{});
+}
+
+AEOLIAN_KERNEL void sweep_ground(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                 Memory& m, const Stations& at, const Ground& ground) {
+  sweep_in_turn<1>(law, now, begin, end, m, at,
+                   HardGroundLines{ground.movable_1, ground.open_1, ground.open_2});
+}
+
+AEOLIAN_KERNEL void sweep_ground_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin,
+                                           std::ptrdiff_t end, Memory& m, const Stations& at,
+                                           const Ground& ground) {
+  sweep_in_turn<ImpactAngles::most>(law, now, begin, end, m, at,
+                                    HardGroundLines{ground.movable_1, ground.open_1, ground.open_2});
 }
 
 AEOLIAN_KERNEL void lower_envelope(std::ptrdiff_t count, double drop, const double* __restrict h,
@@ -102,12 +133,19 @@ AEOLIAN_KERNEL void lower_envelope(std::ptrdiff_t count, double drop, const doub
 
 }  // namespace
 
-HopLaw::HopLaw(double step, double tan_impact_angle, double hop, double shortening_, double blur)
-    : drop(step * tan_impact_angle),
+HopLaw::HopLaw(double step, const ImpactAngles& impacts, double hop, double shortening_, double blur)
+    : angles(impacts.count()),
+      drop{},
+      exposed_per_height{},
       carried(std::exp(-step / hop)),
       launched(-std::expm1(-step / hop) * hop / step),
       flat_flux(hop / step),
       shortening(shortening_ / hop) {
+  for (int i = 0; i < angles; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    drop[n] = step * impacts.tangent(i);
+    exposed_per_height[n] = impacts.weight(i) / drop[n];
+  }
   // A wave of phase theta per station loses theta^2 / 6 of its slope between stations on both sides, and the
   // flux that uniform cells launch lags by theta step / (12 hop).
   const double lag = std::min(step / hop, 1.0) / 12;
@@ -119,51 +157,48 @@ HopLaw::HopLaw(double step, double tan_impact_angle, double hop, double shorteni
   height_behind = 0.5 - lag;
 }
 
-HopStage::HopStage(int lines) {
-  for (std::vector<double>* memory :
-       {&envelope_, &exposure_, &erosion_, &grains_, &heights_, &flux_, &flux_before_, &in_, &out_})
-    memory->assign(static_cast<std::size_t>(lines), 0.0);
+double HopLaw::least_drop() const { return *std::min_element(drop.begin(), drop.begin() + angles); }
+
+void HopStage::sweep(const HopLaw& law, int begin, int end, const Stations& at) {
+  now_ = 1 - now_;
+  (law.angles == 1 ? sweep_sand : sweep_sand_by_angles)(law, now_, begin, end, memory_, at);
 }
 
-void HopStage::sweep(const HopLaw& law, int begin, int end, const double* height, const double* height_1,
-                     const double* height_2, double* erosion, double* deposition) {
-  sweep_lines(law, end - begin, height + begin, height_1 + begin, height_2 + begin, envelope_.data() + begin,
-              exposure_.data() + begin, erosion_.data() + begin, grains_.data() + begin,
-              heights_.data() + begin, flux_.data() + begin, flux_before_.data() + begin, in_.data() + begin,
-              out_.data() + begin, erosion + begin, deposition + begin);
-  flux_.swap(flux_before_);
-}
-
-void HopStage::sweep_hard(const HopLaw& law, int begin, int end, const double* height, const double* height_1,
-                          const double* height_2, const double* movable_1, const double* open_1,
-                          const double* open_2, double* erosion, double* deposition) {
-  sweep_hard_lines(law, end - begin, height + begin, height_1 + begin, height_2 + begin, movable_1 + begin,
-                   open_1 + begin, open_2 + begin, envelope_.data() + begin, exposure_.data() + begin,
-                   erosion_.data() + begin, grains_.data() + begin, heights_.data() + begin,
-                   flux_.data() + begin, flux_before_.data() + begin, in_.data() + begin, out_.data() + begin,
-                   erosion + begin, deposition + begin);
-  flux_.swap(flux_before_);
+void HopStage::sweep(const HopLaw& law, int begin, int end, const Stations& at, const Ground& ground) {
+  now_ = 1 - now_;
+  (law.angles == 1 ? sweep_ground : sweep_ground_by_angles)(law, now_, begin, end, memory_, at, ground);
 }
 
 void HopStage::pass_over(const HopLaw& law, int begin, int end, const double* height) {
-  lower_envelope(end - begin, law.drop, height + begin, envelope_.data() + begin);
+  for (int n = 0; n < law.angles; ++n)
+    lower_envelope(end - begin, law.drop[static_cast<std::size_t>(n)], height + begin,
+                   memory_.envelope[n] + begin);
+}
+
+void HopStage::forget_shadows() {
+  for (auto& envelope : memory_.envelope) std::fill_n(envelope, most_lines, -1e300);
+}
+
+void HopStage::put_down(int begin, int end, double* deposition_2) {
+  for (int i = begin; i < end; ++i) {
+    deposition_2[i] += memory_.out[now_][i];
+    memory_.grains[i] = memory_.heights[i] = memory_.out[now_][i] = 0;
+    memory_.flux[0][i] = memory_.flux[1][i] = 0;
+  }
 }
 
 double HopStage::strongest_flux(int begin, int end) const {
-  return begin < end ? *std::max_element(grains_.begin() + begin, grains_.begin() + end) : 0;
+  return begin < end ? *std::max_element(memory_.grains + begin, memory_.grains + end) : 0;
 }
 
 void HopStage::begin(const HopLaw& law, int line, double height, double share) {
-  const auto at = static_cast<std::size_t>(line);
   const double flux = share * law.flat_flux;
-  envelope_[at] = height;
-  exposure_[at] = 1;
-  erosion_[at] = 0;
-  grains_[at] = flux;
-  heights_[at] = flux * height;
-  flux_[at] = flux;
-  flux_before_[at] = flux;
-  out_[at] = flux;
+  for (auto& envelope : memory_.envelope) envelope[line] = height;
+  memory_.exposure[line] = 1;
+  memory_.grains[line] = flux;
+  memory_.heights[line] = flux * height;
+  for (auto& through : memory_.flux) through[line] = flux;
+  memory_.out[now_][line] = flux;
 }
 
 }  // namespace aeolian

@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "aeolian_core/bedforms/hard_ground.hpp"
-#include "aeolian_core/bedforms/hop_stage.hpp"
-#include "aeolian_core/bedforms/wind_frame.hpp"
+#include "aeolian_core/bedforms/sweep_bundle.hpp"
 
 namespace aeolian {
 
@@ -17,20 +16,21 @@ namespace aeolian {
 /// F is the flux of grains through a height h and G the same flux with each grain times its height of
 /// take-off. Everything is relative to a flat bed: erosion and deposition are 1 there.
 ///
-/// Lines are swept side by side, and each is stepped in time by itself by Heun's method: the second stage
-/// follows the first two stations behind, so that a bed is read once per step.
+/// Lines are swept side by side, and each is stepped in time by itself by the third-order method of Shu and
+/// Osher (1988): each stage follows the one before two stations behind, so that a bed is read once per step.
 class ImpactSweep {
  public:
   /// `hop` is the mean reptation length [m].
-  ImpactSweep(const WindFrame& frame, double tan_impact_angle, double hop, double shortening);
+  ImpactSweep(const WindFrame& frame, const ImpactAngles& angles, double hop, double shortening);
 
   /// Sweeps a bed over a step in which a flat bed loses `depth` [m]. Heights [m] with pads filled; impacts
   /// see the height above `dune`.
   void run(const FrameField& bed, const FrameField& dune, double depth);
 
   /// The same on hard ground, where no more is eroded than lies on it at the beginning of the step. Lines do
-  /// no work where `sandy` says that nothing can move and no grain arrives. `active`, which is of the last
-  /// run or full, becomes the patches that deposition may reach; elsewhere nothing changes.
+  /// no work where `sandy` says that nothing can move and less than `least_flux` arrives, which comes down
+  /// there. `active`, which is of the last run or full, becomes the patches that deposition may reach;
+  /// elsewhere nothing changes.
   void run(const FrameField& bed, const FrameField& dune, const HardGround& ground,
            const ActivePatches& sandy, double depth, ActivePatches& active);
 
@@ -43,38 +43,16 @@ class ImpactSweep {
   double outflow() const { return outflow_; }
 
  private:
-  struct Stretch {
-    int begin, end;  ///< lines j
-    int shift;       ///< q - j
-  };
-  struct Balance {
-    double inflow = 0;
-    double outflow = 0;
-  };
-  /// What a run works on.
-  struct Task {
-    const FrameField& bed;
-    const FrameField& dune;
-    const HardGround* ground;  ///< null when there is none
-    const ActivePatches* sandy;
-    double depth;
-    int shade;  ///< stations that the longest shadow may cover; all where sand comes over unknown cells
-  };
-  struct Touched {
-    int station, begin, end;  ///< rows
-  };
-  class Bundle;
-
-  Stretch on_grid(int station) const;
   int longest_shadow(const FrameField& bed, const FrameField& dune) const;
-  void run(const Task& task);
+  std::vector<SweptBundle> run_bundles(const SweepTask& task);
+  SweepTask task(const FrameField& bed, const FrameField& dune, const HardGround* ground,
+                 const ActivePatches* sandy, double depth);
   void close_period();
 
   const WindFrame& frame_;
   HopLaw law_;
   FrameField erosion_, deposition_;
   std::vector<double> seam_in_, seam_out_;
-  std::vector<std::vector<Touched>> touched_;  ///< by each bundle
   double inflow_ = 0;
   double outflow_ = 0;
 };

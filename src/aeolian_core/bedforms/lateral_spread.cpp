@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "aeolian_core/surface/kernel.hpp"
 
@@ -51,48 +52,29 @@ AEOLIAN_INLINE void sum_taps_straight(std::ptrdiff_t count, const double* weight
   }
 }
 
+/// Calls work with the number of taps as a constant, over which its loops are unrolled.
+template <int most, class Work>
+AEOLIAN_INLINE void with_taps(int taps, const Work& work) {
+  if constexpr (most > 1) {
+    if (taps < most) return with_taps<most - 1>(taps, work);
+  }
+  work(std::integral_constant<int, most>());
+}
+
 AEOLIAN_KERNEL void moments(int taps, std::ptrdiff_t count, const double* weight, const double* __restrict v,
                             double* __restrict sum, double* __restrict first, double* __restrict second) {
-  switch (taps) {
-    case 1:
-      return sum_taps<1>(count, weight, v, sum, first, second);
-    case 2:
-      return sum_taps<2>(count, weight, v, sum, first, second);
-    case 3:
-      return sum_taps<3>(count, weight, v, sum, first, second);
-    case 4:
-      return sum_taps<4>(count, weight, v, sum, first, second);
-    case 5:
-      return sum_taps<5>(count, weight, v, sum, first, second);
-    case 6:
-      return sum_taps<6>(count, weight, v, sum, first, second);
-    case 7:
-      return sum_taps<7>(count, weight, v, sum, first, second);
-    default:
-      return sum_taps<8>(count, weight, v, sum, first, second);
-  }
+  with_taps<most_taps>(
+      taps, [=](auto n) __attribute__((always_inline)) {
+        sum_taps<decltype(n)::value>(count, weight, v, sum, first, second);
+      });
 }
 
 AEOLIAN_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* weight,
                                 const double* __restrict v, double* __restrict sum) {
-  switch (taps) {
-    case 1:
-      return sum_taps_straight<1>(count, weight, v, sum);
-    case 2:
-      return sum_taps_straight<2>(count, weight, v, sum);
-    case 3:
-      return sum_taps_straight<3>(count, weight, v, sum);
-    case 4:
-      return sum_taps_straight<4>(count, weight, v, sum);
-    case 5:
-      return sum_taps_straight<5>(count, weight, v, sum);
-    case 6:
-      return sum_taps_straight<6>(count, weight, v, sum);
-    case 7:
-      return sum_taps_straight<7>(count, weight, v, sum);
-    default:
-      return sum_taps_straight<8>(count, weight, v, sum);
-  }
+  with_taps<most_taps>(
+      taps, [=](auto n) __attribute__((always_inline)) {
+        sum_taps_straight<decltype(n)::value>(count, weight, v, sum);
+      });
 }
 
 /// The sum of the taps where some cells are closed: each pair of cells exchanges by itself.
@@ -163,59 +145,56 @@ LateralSpread::LateralSpread(const WindFrame& frame, double sigma) : frame_(fram
   weight_.assign(kernel.begin() + foldings, kernel.end());
 }
 
-void LateralSpread::pass(const FrameField& from, int begin, int count, int row_begin, int row_end,
-                         const FrameField* open, FrameField& to) const {
-  const int rows = row_end - row_begin;
-  const int taps = static_cast<int>(weight_.size()) - 1;
-  const int n = frame_.stations();
-  const auto mask_of = [&](int i) { return open->at(((begin + i) % n + n) % n) + row_begin; };
-  if (frame_.drift() == 0) {
-    for (int i = 0; i < count; ++i) {
-      const double* const values = from.at(i) + row_begin;
-      mean_across(taps, rows, weight_.data(), values, to.at(i) + row_begin);
-      if (open) exchange_across(taps, rows, weight_.data(), values, mask_of(i), to.at(i) + row_begin);
-    }
-    return;
-  }
-  const bool wall_before = !frame_.periodic() && begin == 0;
-  const bool wall_behind = !frame_.periodic() && begin + count == n;
-  struct Moments {
-    std::vector<double> sum, first, second, flux;  ///< `flux` to the next station
-  };
-  const std::vector<double> zeros(static_cast<std::size_t>(rows), 0.0);
-  std::array<Moments, 3> ring;
-  ring.fill({zeros, zeros, zeros, zeros});
-  const auto at = [&](int i) -> Moments& { return ring[static_cast<std::size_t>(i + 3) % 3]; };
-  const auto finish = [&](int i) {
-    if ((i == 0 && !wall_before) || (i == count - 1 && !wall_behind)) return;
-    settle(rows, at(i).sum.data(), at(i - 1).flux.data(), at(i).flux.data(), to.at(i) + row_begin);
-  };
-  for (int i = 0; i < count; ++i) {
-    Moments& here = at(i);
-    const double* const values = from.at(i) + row_begin;
-    moments(taps, rows, weight_.data(), values, here.sum.data(), here.first.data(), here.second.data());
-    if (open) exchange_across(taps, rows, weight_.data(), values, mask_of(i), here.sum.data());
-    if (i == 0) continue;
-    Moments& before = at(i - 1);
-    flux_between(rows, frame_.drift(), before.sum.data(), here.sum.data(), before.first.data(),
-                 here.first.data(), before.second.data(), here.second.data(), before.flux.data());
-    if (open) close_faces(rows, mask_of(i - 1), mask_of(i), before.flux.data());
-    finish(i - 1);
-  }
-  at(count - 1).flux = zeros;
-  finish(count - 1);
+LateralSpread::Stream::Stream(const LateralSpread& spread, int begin, int end, int row_begin, int row_end,
+                              const FrameField* open)
+    : spread_(spread),
+      begin_(begin),
+      end_(end),
+      next_(begin),
+      row_begin_(row_begin),
+      row_end_(row_end),
+      open_(open),
+      wall_before_(!spread.frame_.periodic() && begin == 0),
+      wall_behind_(!spread.frame_.periodic() && end == spread.frame_.stations()),
+      rows_(spread.passes_ + 1, spread.frame_.rows()) {
+  if (spread.frame_.drift() != 0) moments_ = FrameField(spread.passes_ * 4 * 3, spread.frame_.rows());
 }
 
-void LateralSpread::run(FrameField& values, int begin, int end, int row_begin, int row_end,
-                        const FrameField* open) const {
-  if (passes_ == 0) return;
-  FrameField result(end - begin, frame_.rows());
-  for (int n = 0; n < passes_; ++n) {
-    if (n > 0)
-      for (int i = 0; i < end - begin; ++i) values.fill_mirrored_pads(i, frame_.periodic());
-    pass(values, begin, end - begin, row_begin, row_end, open, result);
-    values.swap(result);
-  }
+const double* LateralSpread::Stream::open_at(int station) const {
+  const int n = spread_.frame_.stations();
+  return open_->at((station % n + n) % n) + row_begin_;
+}
+
+void LateralSpread::Stream::fold(int pass, int station) {
+  const int rows = row_end_ - row_begin_;
+  const int taps = static_cast<int>(spread_.weight_.size()) - 1;
+  const double* const weight = spread_.weight_.data();
+  const bool straight = spread_.frame_.drift() == 0;
+  rows_.fill_mirrored_pads(pass, spread_.frame_.periodic());
+  const double* const values = rows_.at(pass) + row_begin_;
+  double* const folded = straight ? rows_.at(pass + 1) + row_begin_ : moment(pass, sum, station);
+  if (straight)
+    mean_across(taps, rows, weight, values, folded);
+  else
+    moments(taps, rows, weight, values, folded, moment(pass, first, station), moment(pass, second, station));
+  if (open_) exchange_across(taps, rows, weight, values, open_at(station), folded);
+}
+
+void LateralSpread::Stream::flow(int pass, int station) {
+  const int rows = row_end_ - row_begin_;
+  const auto at = [&](Moment which, int where) { return moment(pass, which, where); };
+  flux_between(rows, spread_.frame_.drift(), at(sum, station), at(sum, station + 1), at(first, station),
+               at(first, station + 1), at(second, station), at(second, station + 1), at(flux, station));
+  if (open_) close_faces(rows, open_at(station), open_at(station + 1), at(flux, station));
+}
+
+void LateralSpread::Stream::close(int pass, int station) {
+  std::fill_n(moment(pass, flux, station), row_end_ - row_begin_, 0.0);
+}
+
+void LateralSpread::Stream::add_up(int pass, int station) {
+  settle(row_end_ - row_begin_, moment(pass, sum, station), moment(pass, flux, station - 1),
+         moment(pass, flux, station), rows_.at(pass + 1) + row_begin_);
 }
 
 }  // namespace aeolian

@@ -10,7 +10,7 @@
 namespace aeolian {
 namespace {
 
-constexpr int stations_at_once = 16;
+constexpr int stations_at_once = 32;
 
 /// Rows from the lines on both sides of each.
 AEOLIAN_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __restrict lines,
@@ -72,27 +72,29 @@ LaidDown LayDown::run(int begin, int end) const {
   if (live.begin >= live.end) return result;
   const int from = periodic ? begin - spread.reach() : std::max(0, begin - spread.reach());
   const int to = periodic ? end + spread.reach() : std::min(n, end + spread.reach());
-  FrameField deposition(to - from, rows);
-  for (int i = from; i < to; ++i) {
-    const int station = wrapped(i, n);
-    scatter(rows, frame.place(station).upper, sweep.deposition().at(station), deposition.at(i - from));
-    deposition.fill_mirrored_pads(i - from, periodic);
-  }
-  spread.run(deposition, from, to, live.begin, live.end, open);
-
+  const int first_row = std::max(0, live.begin - FrameField::pad);
+  const int last_row = std::min(rows, live.end + FrameField::pad);
   const int count = live.end - live.begin;
   std::vector<double> eroded(static_cast<std::size_t>(count), 0.0);
   std::vector<double> strongest(static_cast<std::size_t>(count), 0.0);
-  for (int i = begin; i < end; ++i) {
+  const auto finish = [&](int i, const double* deposition) {
+    if (i < begin || i >= end) return;
     const double upper = frame.place(i).upper;
-    update(count, depth, upper, sweep.erosion().at(i) + live.begin, deposition.at(i - from) + live.begin,
+    update(count, depth, upper, sweep.erosion().at(i) + live.begin, deposition + live.begin,
            bed.at(i) + live.begin, activity.at(i) + live.begin, eroded.data(), strongest.data());
     bed.fill_pads(i, periodic);
     activity.fill_pads(i, periodic);
-    if (periodic) continue;
+    if (periodic) return;
     // The share of the outermost lines that falls beside the grid has crossed its border.
     result.inflow += (1 - upper) * sweep.erosion().at(i)[0] + upper * sweep.erosion().at(i)[rows];
     result.outflow += (1 - upper) * sweep.deposition().at(i)[0] + upper * sweep.deposition().at(i)[rows];
+  };
+  LateralSpread::Stream stream(spread, from, to, live.begin, live.end, open);
+  for (int i = from; i < to; ++i) {
+    const int station = wrapped(i, n);
+    scatter(last_row - first_row, frame.place(station).upper, sweep.deposition().at(station) + first_row,
+            stream.next() + first_row);
+    stream.push(finish);
   }
   for (const double e : eroded) result.eroded += e;
   result.strongest = *std::max_element(strongest.begin(), strongest.end());

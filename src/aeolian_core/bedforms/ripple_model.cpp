@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "aeolian_core/bedforms/avalanche.hpp"
@@ -10,6 +11,7 @@
 #include "aeolian_core/bedforms/lateral_spread.hpp"
 #include "aeolian_core/bedforms/lay_down.hpp"
 #include "aeolian_core/bedforms/relief.hpp"
+#include "aeolian_core/bedforms/sand_reach.hpp"
 #include "aeolian_core/bedforms/slope_flux.hpp"
 #include "aeolian_core/bedforms/wind_frame.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -25,12 +27,11 @@ void require(bool allowed, const char* name, double value, const char* range) {
 /// Says anew of the active patches whether sand lies there that can move.
 void find_sand(const FrameField& bed, const HardGround& ground, const ActivePatches& active,
                ActivePatches& sandy) {
-  constexpr double least = 1e-6;  // [m], far less than a grain
   active.for_all([&](int station, int patch, int begin, int end) {
     bool any = false;
     for (int row = begin; row < end; ++row)
-      any = any ||
-            (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] > least;
+      any = any || (bed.at(station)[row] - ground.floor.at(station)[row]) * ground.open.at(station)[row] >
+                       least_movable;
     sandy.set(station, patch, any);
   });
 }
@@ -117,6 +118,18 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   return advance(geometry, height, nullptr, nullptr, forcing, duration);
 }
 
+/// What a run works on: the whole grid, or on hard ground the part that sand may reach.
+struct RippleModel::Run {
+  const Forcing& forcing;
+  const std::vector<double>* floor;
+  const std::vector<double>* open;
+  bool holes;
+  const std::vector<double>& dune;
+  const SandReach& reach;
+  double cell;
+  double dt;
+};
+
 BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>& height,
                                const std::vector<double>* floor, const std::vector<double>* open,
                                const Forcing& forcing, double duration) const {
@@ -125,39 +138,63 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   if (erosion_rate * hop * duration == 0) return {TileMask(geometry), {}};
 
   const bool periodic = parameters_.border == Border::periodic;
-  const double cell = geometry.cell();
-  const double tan_impact = std::tan(forcing.impact_angle);
-  const double tan_repose = std::tan(forcing.grain.angle_of_repose);
-  const double slope_scale = parameters_.slope_effect * hop * erosion_rate;
-  const WindFrame frame(geometry, forcing.direction, periodic);
-  ImpactSweep impacts(frame, tan_impact, hop, parameters_.hop_shortening);
-  SlopeFlux slopes(frame, cell, slope_scale);
-  Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, periodic);
-  const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
+  const ImpactAngles angles(forcing.impact_angle, forcing.impact_angle_spread);
+  const WindFrame whole(geometry, forcing.direction, periodic);
+  const std::vector<double> dune = dune_surface(geometry, height, parameters_.relief_scale, periodic);
+  const int aside = LateralSpread(whole, parameters_.lateral_spread * hop / geometry.cell()).reach_across();
+  const SandReach reach(geometry, forcing.direction, hop, aside, angles.least_tangent());
+  const bool holes = open && std::find(open->begin(), open->end(), 0.0) != open->end();
+  const double steps = std::max(
+      1.0,
+      std::ceil(duration * erosion_rate / (parameters_.step * whole.step() * angles.effective_tangent())));
+  const Run run{forcing, floor, open, holes, dune, reach, geometry.cell(), duration / steps};
 
   const std::vector<double> start = height;
+  VolumeBalance volume;
+  for (double step = 0; step < steps;) {
+    std::optional<CellRange> part = CellRange{0, geometry.nx(), 0, geometry.ny()};
+    if (floor && !holes && !periodic) part = reach.range(height, *floor, dune);
+    if (!part) break;
+    step += advance(run, whole.part(*part), steps - step, height, volume);
+  }
+  for (std::size_t i = 0; i < height.size(); ++i)
+    volume.change += (height[i] - start[i]) * geometry.cell() * geometry.cell();
+  return {changed_tiles(geometry, start, height), volume};
+}
+
+double RippleModel::advance(const Run& run, const WindFrame& frame, double steps, std::vector<double>& height,
+                            VolumeBalance& volume) const {
+  const double hop = run.forcing.reptation_length;
+  const double cell = run.cell;
+  const double tan_repose = std::tan(run.forcing.grain.angle_of_repose);
+  const double slope_scale = parameters_.slope_effect * hop * run.forcing.erosion_rate();
+  const ImpactAngles angles(run.forcing.impact_angle, run.forcing.impact_angle_spread);
+  ImpactSweep impacts(frame, angles, hop, parameters_.hop_shortening);
+  SlopeFlux slopes(frame, cell, slope_scale);
+  Avalanches avalanches(frame.stations(), frame.rows(), cell, tan_repose, frame.periodic());
+  const LateralSpread spread(frame, parameters_.lateral_spread * hop / cell);
+
   FrameField dune, bed;
   FrameField activity(frame.stations(), frame.rows());
-  frame.enter(dune_surface(geometry, height, parameters_.relief_scale, periodic), dune);
+  frame.enter(run.dune, dune);
   frame.enter(height, bed);
   HardGround ground;
-  if (floor) {
-    frame.enter(*floor, ground.floor);
-    frame.enter(*open, ground.open);
-    ground.holes = std::find(open->begin(), open->end(), 0.0) != open->end();
+  if (run.floor) {
+    frame.enter(*run.floor, ground.floor);
+    frame.enter(*run.open, ground.open);
+    ground.holes = run.holes;
   }
   ActivePatches active(frame.stations(), frame.rows());
   ActivePatches sandy = active;
 
-  VolumeBalance volume;
-  const double steps =
-      std::max(1.0, std::ceil(duration * erosion_rate / (parameters_.step * frame.step() * tan_impact)));
-  const double dt = duration / steps;
-  const double depth = erosion_rate * dt;
+  const double dt = run.dt;
+  const double depth = run.forcing.erosion_rate() * dt;
   const double area = cell * cell;
-  for (double step = 0; step < steps; ++step) {
+  double step = 0;
+  for (; step < steps; ++step) {
     if (ground.any()) {
       find_sand(bed, ground, active, sandy);
+      if (step > 0 && !run.reach.stays_within(frame, sandy)) break;
       clear(active, frame, activity);
       impacts.run(bed, dune, ground, sandy, depth, active);
     } else {
@@ -177,8 +214,7 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
     }
   }
   frame.leave(bed, height);
-  for (std::size_t i = 0; i < height.size(); ++i) volume.change += (height[i] - start[i]) * area;
-  return {changed_tiles(geometry, start, height), volume};
+  return step;
 }
 
 }  // namespace aeolian

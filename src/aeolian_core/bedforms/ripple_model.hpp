@@ -6,6 +6,8 @@
 
 namespace aeolian {
 
+class WindFrame;
+
 enum class Border {
   periodic,  ///< opposite borders are joined; needs a fully known map
   open,      ///< flat-bed supply from upwind, free outflow downwind
@@ -36,7 +38,9 @@ struct RippleParameters {
 ///
 /// Linear theory on a flat bed, with C = cot(alpha) - nu: growth rate K0 (C k^2 a / (1 + k^2 a^2) - mu a
 /// k^2), phase speed K0 C k^2 a^2 / (1 + k^2 a^2); fastest growth (K0 / a) (sqrt(C) - sqrt(mu))^2 at a
-/// wavelength of 2 pi a / sqrt(sqrt(C / mu) - 1). The model picks its own time steps.
+/// wavelength of 2 pi a / sqrt(sqrt(C / mu) - 1). Impact angles with a spread each have their own shadows
+/// (ImpactAngles): cot(alpha) is then the mean of their cotangents, which is more than that of the mean
+/// angle. The model picks its own time steps.
 class RippleModel : public BedModel {
  public:
   /// Throws Error naming a parameter outside its range.
@@ -52,6 +56,10 @@ class RippleModel : public BedModel {
   BedChange advance(const GridGeometry& geometry, std::vector<double>& height,
                     const std::vector<double>* floor, const std::vector<double>* open, const Forcing& forcing,
                     double duration) const;
+  struct Run;
+  /// Makes up to so many steps in a part of the grid, until sand may leave it. Returns the steps made.
+  double advance(const Run& run, const WindFrame& frame, double steps, std::vector<double>& height,
+                 VolumeBalance& volume) const;
 
   RippleParameters parameters_;
 };

@@ -1,173 +1,264 @@
 #include "aeolian_core/bedforms/slope_flux.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/slope_stages.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 namespace {
 
+constexpr int stations_together = 64;  ///< whose stages follow one another
 constexpr int stations_at_once = 16;
+
+/// Of a flat bed's: of less, thin sand on hard ground does not flow down slopes.
+constexpr double least_activity = 1e-3;
 
 /// A station and what lies before and behind it.
 struct Rows {
   const double* here;
   const double* before;
   const double* behind;
-  Rows operator+(int row) const { return {here + row, before + row, behind + row}; }
 };
 
-/// What flows into a cell; a face's activity is the sum of its two cells'.
-AEOLIAN_INLINE double divergence(const double* h, const double* h_before, const double* h_behind,
-                                 const double* a, const double* a_before, const double* a_behind,
-                                 std::ptrdiff_t i) {
-  const double along =
-      (a[i] + a_behind[i]) * (h_behind[i] - h[i]) - (a_before[i] + a[i]) * (h[i] - h_before[i]);
-  const double across = (a[i] + a[i + 1]) * (h[i + 1] - h[i]) - (a[i - 1] + a[i]) * (h[i] - h[i - 1]);
-  return along + across;
+/// Marks what is open and deeper than `least`.
+AEOLIAN_KERNEL void mark_deep(std::ptrdiff_t count, double least, const double* __restrict h,
+                              const double* __restrict floor, const double* __restrict open,
+                              double* __restrict deep) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) deep[i] = (h[i] - floor[i]) * open[i] > least ? 1 : 0;
 }
 
-AEOLIAN_KERNEL void begin_stages(std::ptrdiff_t count, double gain, Rows height, Rows activity,
-                                 double* __restrict start, double* __restrict first,
-                                 double* __restrict next) {
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double d = divergence(height.here, height.before, height.behind, activity.here, activity.before,
-                                activity.behind, i);
-    start[i] = height.here[i];
-    first[i] = d;
-    next[i] = height.here[i] + gain * d;
-  }
-}
-
-struct Stage {
-  double last, before_last, start, gain, first_gain;
+/// What thin faces are told by.
+struct Thin {
+  Rows activity, open, deep;
 };
 
-AEOLIAN_KERNEL void add_stage(std::ptrdiff_t count, const Stage& given, Rows height, Rows activity,
-                              const double* __restrict start, const double* __restrict first,
-                              double* __restrict next) {
-  const Stage c = given;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double d = divergence(height.here, height.before, height.behind, activity.here, activity.before,
-                                activity.behind, i);
-    next[i] = (c.last * height.here[i] + c.before_last * next[i] + c.start * start[i]) +
-              (c.gain * d + c.first_gain * first[i]);
-  }
+/// Twice the activity of a face between a cell and another one, zero unless that is open, not between two
+/// deep cells and strong enough.
+AEOLIAN_INLINE double thin_face(double a, double a_other, double open, double open_other, double deep,
+                                double deep_other) {
+  const double sum = (a + a_other) * (open * open_other * (1 - deep * deep_other));
+  return sum > 2 * least_activity ? sum : 0;
 }
 
-/// What flows into a cell from another one, at most a quarter of what lies where it comes from.
-AEOLIAN_INLINE double inflow(double gain, double a, double a_other, double h, double h_other, double floor,
-                             double floor_other, double open, double open_other) {
-  const double raw = gain * (a + a_other) * (h_other - h);
+/// Those around a cell.
+struct ThinFaces {
+  double behind, before, above, below;
+};
+AEOLIAN_INLINE ThinFaces thin_faces(const Thin& t, std::ptrdiff_t i) {
+  const double* const a = t.activity.here;
+  const double* const o = t.open.here;
+  const double* const d = t.deep.here;
+  return {thin_face(a[i], t.activity.behind[i], o[i], t.open.behind[i], d[i], t.deep.behind[i]),
+          thin_face(a[i], t.activity.before[i], o[i], t.open.before[i], d[i], t.deep.before[i]),
+          thin_face(a[i], a[i + 1], o[i], o[i + 1], d[i], d[i + 1]),
+          thin_face(a[i], a[i - 1], o[i], o[i - 1], d[i], d[i - 1])};
+}
+
+/// The strongest mean activity of the faces around a cell, of which only the thin ones count.
+AEOLIAN_KERNEL double strongest_thin(std::ptrdiff_t count, Thin thin) {
+  double lanes[8] = {};
+  for (std::ptrdiff_t begin = 0; begin < count; begin += 8)
+    for (std::ptrdiff_t i = begin; i < std::min(begin + 8, count); ++i) {
+      const ThinFaces faces = thin_faces(thin, i);
+      const double sum = (faces.behind + faces.before) + (faces.above + faces.below);
+      lanes[i - begin] = sum > lanes[i - begin] ? sum : lanes[i - begin];
+    }
+  return *std::max_element(lanes, lanes + 8) / 8;
+}
+
+/// What flows through a face into a cell from another one, at most a quarter of what lies where it comes
+/// from.
+AEOLIAN_INLINE double inflow(double gain, double face, double h, double h_other, double floor,
+                             double floor_other) {
+  const double raw = gain * face * (h_other - h);
   const double mine = -0.25 * (h - floor);
   const double others = 0.25 * (h_other - floor_other);
   const double lower = mine < 0 ? mine : 0;
   const double upper = others > 0 ? others : 0;
   const double flow = raw > lower ? raw : lower;
-  return open * open_other * (flow < upper ? flow : upper);
+  return face > 0 ? (flow < upper ? flow : upper) : 0;
 }
 
-AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows height, Rows activity,
-                                       Rows floors, Rows opens, double* __restrict next) {
+AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows height, Rows floors, Thin thin,
+                                       double* __restrict next) {
   const double* const h = height.here;
-  const double* const a = activity.here;
   const double* const f = floors.here;
-  const double* const o = opens.here;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double along = inflow(gain, a[i], activity.behind[i], h[i], height.behind[i], f[i],
-                                floors.behind[i], o[i], opens.behind[i]) +
-                         inflow(gain, a[i], activity.before[i], h[i], height.before[i], f[i],
-                                floors.before[i], o[i], opens.before[i]);
-    const double across = inflow(gain, a[i], a[i + 1], h[i], h[i + 1], f[i], f[i + 1], o[i], o[i + 1]) +
-                          inflow(gain, a[i], a[i - 1], h[i], h[i - 1], f[i], f[i - 1], o[i], o[i - 1]);
+    const ThinFaces faces = thin_faces(thin, i);
+    const double along = inflow(gain, faces.behind, h[i], height.behind[i], f[i], floors.behind[i]) +
+                         inflow(gain, faces.before, h[i], height.before[i], f[i], floors.before[i]);
+    const double across = inflow(gain, faces.above, h[i], h[i + 1], f[i], f[i + 1]) +
+                          inflow(gain, faces.below, h[i], h[i - 1], f[i], f[i - 1]);
     next[i] = h[i] + (along + across);
   }
+}
+
+/// Whether any deep cell has been taken below its floor.
+AEOLIAN_KERNEL bool any_below(std::ptrdiff_t count, const double* __restrict next,
+                              const double* __restrict floor, const double* __restrict deep) {
+  std::int64_t any = 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i) any |= (next[i] < floor[i]) & (deep[i] > 0);
+  return any != 0;
+}
+
+AEOLIAN_KERNEL void take_deep(std::ptrdiff_t count, const double* __restrict next,
+                              const double* __restrict deep, double* __restrict height) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) height[i] = deep[i] > 0 ? next[i] : height[i];
 }
 
 }  // namespace
 
 SlopeFlux::SlopeFlux(const WindFrame& frame, double cell, double scale)
-    : frame_(frame),
-      cell_(cell),
-      scale_(scale),
-      next_(frame.stations(), frame.rows()),
-      start_(next_),
-      first_(next_) {}
+    : frame_(frame), cell_(cell), scale_(scale), next_(frame.stations(), frame.rows()) {}
 
-/// Calls work(station, rows_of), in parallel; rows_of(field) are those of the station and its neighbours.
+/// Calls work(begin, end) for blocks of stations, in parallel.
 template <class Work>
-void SlopeFlux::for_stations(Work&& work) const {
+void SlopeFlux::for_blocks(int each, Work&& work) const {
+  const int n = frame_.stations();
+  tbb::parallel_for(0, (n + each - 1) / each,
+                    [&](int block) { work(block * each, std::min((block + 1) * each, n)); });
+}
+
+/// Calls work(station, begin, end, rows_of) for the runs of active rows, in parallel; rows_of(field) are
+/// those of the station and its neighbours from a row on.
+template <class Work>
+void SlopeFlux::for_active(const ActivePatches& active, Work&& work) const {
   const int n = frame_.stations();
   const bool periodic = frame_.periodic();
-  tbb::parallel_for(0, (n + stations_at_once - 1) / stations_at_once, [&](int block) {
-    for (int i = block * stations_at_once; i < std::min((block + 1) * stations_at_once, n); ++i)
-      work(i, [&](const FrameField& field) {
-        return Rows{field.at(i),
-                    field.at(i > 0      ? i - 1
-                             : periodic ? n - 1
-                                        : 0),
-                    field.at(i + 1 < n  ? i + 1
-                             : periodic ? 0
-                                        : n - 1)};
+  for_blocks(stations_at_once, [&](int first, int last) {
+    for (int i = first; i < last; ++i)
+      active.for_runs(i, [&](int begin, int end) {
+        const int before = i > 0 ? i - 1 : periodic ? n - 1 : 0;
+        const int behind = i + 1 < n ? i + 1 : periodic ? 0 : n - 1;
+        work(i, begin, end, [&](const FrameField& field, int row) {
+          return Rows{field.at(i) + row, field.at(before) + row, field.at(behind) + row};
+        });
       });
   });
 }
 
+/// Of a Runge-Kutta-Legendre scheme. One explicit step is stable to D dt / cell^2 = 1/4 in two dimensions; n
+/// stages cover (n^2 + n - 2) / 4 of them.
+int SlopeFlux::stages(double strongest_activity, double duration) const {
+  const double explicit_steps = scale_ * strongest_activity * duration / (0.25 * cell_ * cell_);
+  return static_cast<int>(std::max(2.0, std::ceil(std::sqrt(2.25 + 4 * explicit_steps) - 0.5)));
+}
+
+/// Weight of a difference of heights. A face's activity is the sum of two, hence a half.
+double SlopeFlux::gain(double duration) const { return scale_ * duration / (2 * cell_ * cell_); }
+
 void SlopeFlux::run(const FrameField& activity, double strongest_activity, double duration,
                     FrameField& height) {
-  const double strongest = scale_ * strongest_activity;
-  if (!(strongest > 0)) return;
-  // One explicit step is stable to D dt / cell^2 = 1/4 in two dimensions. A Runge-Kutta-Legendre scheme of
-  // second order and n stages covers (n^2 + n - 2) / 4 of them (Meyer, Balsara and Aslam 2014).
-  const double explicit_steps = strongest * duration / (0.25 * cell_ * cell_);
-  const double stages = std::max(2.0, std::ceil(std::sqrt(2.25 + 4 * explicit_steps) - 0.5));
-  // A face's activity is the sum of two, hence a half.
-  const double gain = scale_ * duration / (2 * cell_ * cell_);
-  const double w = 4 / (stages * stages + stages - 2);
-  const auto b = [](double j) { return j < 2 ? 1.0 / 3 : (j * j + j - 2) / (2 * j * (j + 1)); };
-  const int rows = frame_.rows();
-  const bool periodic = frame_.periodic();
-
-  for_stations([&](int i, auto&& rows_of) {
-    begin_stages(rows, w / 3 * gain, rows_of(height), rows_of(activity), start_.at(i), first_.at(i),
-                 next_.at(i));
-    next_.fill_pads(i, periodic);
+  if (!(scale_ * strongest_activity > 0)) return;
+  const int count = stages(strongest_activity, duration);
+  for_blocks(std::max(stations_together, 4 * count), [&](int begin, int end) {
+    SlopeStages(frame_, count, gain(duration), activity, nullptr, height, next_)
+        .run(begin, end, 0, frame_.rows());
   });
   height.swap(next_);
-  for (double j = 2; j <= stages; ++j) {
-    const double mu = (2 * j - 1) / j * b(j) / b(j - 1);
-    const double nu = -(j - 1) / j * b(j) / b(j - 2);
-    const Stage stage{mu, nu, 1 - mu - nu, mu * w * gain, -(1 - b(j - 1)) * mu * w * gain};
-    for_stations([&](int i, auto&& rows_of) {
-      add_stage(rows, stage, rows_of(height), rows_of(activity), start_.at(i), first_.at(i), next_.at(i));
-      next_.fill_pads(i, periodic);
-    });
-    height.swap(next_);
-  }
 }
 
 void SlopeFlux::run(const FrameField& activity, double strongest_activity, double duration,
                     const HardGround& ground, const ActivePatches& active, FrameField& height) {
-  const double strongest = scale_ * strongest_activity;
-  if (!(strongest > 0)) return;
-  // A fifth keeps every cell between its neighbours.
-  const double steps = std::ceil(strongest * duration / (0.2 * cell_ * cell_));
-  const double gain = scale_ * duration / steps / (2 * cell_ * cell_);
-  for (double step = 0; step < steps; ++step) {
-    for_stations([&](int i, auto&& rows_of) {
-      active.for_runs(i, [&](int begin, int end) {
-        exchange_on_ground(end - begin, gain, rows_of(height) + begin, rows_of(activity) + begin,
-                           rows_of(ground.floor) + begin, rows_of(ground.open) + begin, next_.at(i) + begin);
-      });
+  if (!(scale_ * strongest_activity > 0)) return;
+  find_deep(ground, active, height);
+  run_deep(activity, strongest_activity, duration, ground, active, height);
+  run_thin(activity, duration, ground, active, height);
+}
+
+/// Sand of more than a cell's depth is deep.
+void SlopeFlux::find_deep(const HardGround& ground, const ActivePatches& active, const FrameField& height) {
+  if (deep_.rows() == 0) deep_ = FrameField(frame_.stations(), frame_.rows());
+  const auto set = [&](const ActivePatches& patches, auto&& set_run) {
+    for_blocks(stations_at_once, [&](int first, int last) {
+      for (int i = first; i < last; ++i) {
+        bool any = false;
+        patches.for_runs(i, [&](int begin, int end) {
+          set_run(i, begin, end);
+          any = true;
+        });
+        if (any) deep_.fill_pads(i, frame_.periodic());
+      }
     });
-    for_stations([&](int i, auto&&) {
-      active.for_runs(i, [&](int begin, int end) {
-        std::copy(next_.at(i) + begin, next_.at(i) + end, height.at(i) + begin);
-        height.fill_pads(i, frame_.periodic());
+  };
+  if (was_active_)
+    set(*was_active_,
+        [&](int i, int begin, int end) { std::fill(deep_.at(i) + begin, deep_.at(i) + end, 0.0); });
+  was_active_ = active;
+  set(active, [&](int i, int begin, int end) {
+    mark_deep(end - begin, cell_, height.at(i) + begin, ground.floor.at(i) + begin, ground.open.at(i) + begin,
+              deep_.at(i) + begin);
+  });
+}
+
+/// Among deep cells sand flows as if there were no floor. Should one come to light, nothing does, and no cell
+/// is deep any more.
+void SlopeFlux::run_deep(const FrameField& activity, double strongest_activity, double duration,
+                         const HardGround& ground, const ActivePatches& active, FrameField& height) {
+  const int count = stages(strongest_activity, duration);
+  std::atomic<bool> below{false};
+  for_blocks(std::max(stations_together, 4 * count), [&](int begin, int end) {
+    int first = frame_.rows();
+    int last = 0;
+    const int n = frame_.stations();
+    for (int i = begin - count; i < end + count; ++i) {
+      if (!frame_.periodic() && (i < 0 || i >= n)) continue;
+      active.for_runs((i % n + n) % n, [&](int from, int to) {
+        first = std::min(first, from);
+        last = std::max(last, to);
       });
+    }
+    if (first >= last) return;
+    SlopeStages(frame_, count, gain(duration), activity, &deep_, height, next_).run(begin, end, first, last);
+    for (int i = begin; i < end; ++i)
+      if (any_below(last - first, next_.at(i) + first, ground.floor.at(i) + first, deep_.at(i) + first))
+        below = true;
+  });
+  for_active(active, [&](int i, int begin, int end, auto&&) {
+    if (below)
+      std::fill(deep_.at(i) + begin, deep_.at(i) + end, 0.0);
+    else
+      take_deep(end - begin, next_.at(i) + begin, deep_.at(i) + begin, height.at(i) + begin);
+  });
+  for (int i = 0; i < frame_.stations(); ++i) {
+    height.fill_pads(i, frame_.periodic());
+    deep_.fill_pads(i, frame_.periodic());
+  }
+}
+
+/// Through the other faces it flows by explicit steps and no more of it than there is.
+void SlopeFlux::run_thin(const FrameField& activity, double duration, const HardGround& ground,
+                         const ActivePatches& active, FrameField& height) {
+  ActivePatches thin = active;
+  std::vector<double> strongest(static_cast<std::size_t>(frame_.stations()), 0.0);
+  for_active(active, [&](int i, int begin, int end, auto&& rows_of) {
+    for (int row = begin; row < end; row += ActivePatches::rows_each) {
+      const int count = std::min(ActivePatches::rows_each, end - row);
+      const double most =
+          strongest_thin(count, {rows_of(activity, row), rows_of(ground.open, row), rows_of(deep_, row)});
+      thin.set(i, row / ActivePatches::rows_each, most > 0);
+      strongest[static_cast<std::size_t>(i)] = std::max(strongest[static_cast<std::size_t>(i)], most);
+    }
+  });
+  // A fifth keeps every cell between its neighbours.
+  const double most = *std::max_element(strongest.begin(), strongest.end());
+  if (!(most > 0)) return;
+  const double steps = std::ceil(scale_ * most * duration / (0.2 * cell_ * cell_));
+  for (double step = 0; step < steps; ++step) {
+    for_active(thin, [&](int i, int begin, int end, auto&& rows_of) {
+      exchange_on_ground(end - begin, gain(duration / steps), rows_of(height, begin),
+                         rows_of(ground.floor, begin),
+                         {rows_of(activity, begin), rows_of(ground.open, begin), rows_of(deep_, begin)},
+                         next_.at(i) + begin);
+    });
+    for_active(thin, [&](int i, int begin, int end, auto&&) {
+      std::copy(next_.at(i) + begin, next_.at(i) + end, height.at(i) + begin);
+      height.fill_pads(i, frame_.periodic());
     });
   }
 }

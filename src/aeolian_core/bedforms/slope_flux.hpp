@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "aeolian_core/bedforms/hard_ground.hpp"
 
 namespace aeolian {
@@ -21,12 +23,23 @@ class SlopeFlux {
 
  private:
   template <class Work>
-  void for_stations(Work&& work) const;
+  void for_blocks(int each, Work&& work) const;
+  template <class Work>
+  void for_active(const ActivePatches& active, Work&& work) const;
+  int stages(double strongest_activity, double duration) const;
+  double gain(double duration) const;
+  void find_deep(const HardGround& ground, const ActivePatches& active, const FrameField& height);
+  void run_deep(const FrameField& activity, double strongest_activity, double duration,
+                const HardGround& ground, const ActivePatches& active, FrameField& height);
+  void run_thin(const FrameField& activity, double duration, const HardGround& ground,
+                const ActivePatches& active, FrameField& height);
 
   const WindFrame& frame_;
   double cell_;
   double scale_;
-  FrameField next_, start_, first_;
+  FrameField next_;
+  FrameField deep_;  ///< 1 where much sand lies on hard ground, else 0
+  std::optional<ActivePatches> was_active_;
 };
 
 }  // namespace aeolian

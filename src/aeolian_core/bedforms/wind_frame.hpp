@@ -4,6 +4,7 @@
 
 #include "aeolian_core/bedforms/frame_field.hpp"
 #include "aeolian_core/surface/grid_geometry.hpp"
+#include "aeolian_core/surface/tile_mask.hpp"
 
 namespace aeolian {
 
@@ -18,6 +19,18 @@ class WindFrame {
  public:
   /// `periodic` rounds the drift so that lines close after one period.
   WindFrame(const GridGeometry& geometry, double direction, bool periodic);
+
+  /// The frame of a part of an open grid, whose lines lie where those of the whole do. The part is taken wider,
+  /// to begin at a multiple of `alignment` stations and rows of the whole.
+  static constexpr int alignment = 32;
+  WindFrame part(const CellRange& cells) const;
+
+  /// On which sides of a part the grid goes on.
+  struct Rim {
+    bool upwind = false, downwind = false, low_rows = false, high_rows = false;
+    bool any() const { return upwind || downwind || low_rows || high_rows; }
+  };
+  const Rim& rim() const { return rim_; }
 
   int stations() const { return stations_; }
   int rows() const { return rows_; }
@@ -44,13 +57,20 @@ class WindFrame {
   int first_line() const { return first_line_; }
   int end_line() const { return end_line_; }
 
-  /// Copies a grid's values (x fastest) into the frame and back.
+  /// Copies a grid's values (x fastest; of a part those of the whole grid) into the frame and back.
   void enter(const std::vector<double>& grid, FrameField& frame) const;
   void leave(const FrameField& frame, std::vector<double>& grid) const;
 
  private:
   Place computed_place(int station) const;
+  void find_places();
+  template <class Work>
+  void for_cells(Work&& work) const;
 
+  CellRange cells_;  ///< of the grid
+  int nx_;           ///< of the whole grid
+  Rim rim_;
+  double phase_ = 0;  ///< shift of the lines across, below a row
   int stations_;
   int rows_;
   bool transposed_;

@@ -76,6 +76,7 @@ SaltationState summary(const SteadyState& s, double impact_threshold) {
   state.impact_rate = s.impact_rate();
   state.impact_speed = s.mean(speed);
   state.impact_angle = s.mean(angle);
+  state.impact_angle_spread = s.spread(angle);
   state.hop_length = s.mean(s.landings.length);
   state.hop_height = s.mean(s.landings.apex);
   state.flight_time = s.mean(s.landings.duration);

@@ -18,10 +18,9 @@ struct Sweep {
   WindFrame frame;
   ImpactSweep impacts;
 
-  Sweep(int nx, int ny, double direction, bool periodic, const std::function<double(int, int)>& height)
-      : geometry(0, 0, cell, nx, ny),
-        frame(geometry, direction, periodic),
-        impacts(frame, tan_impact, 0.01, 1) {
+  Sweep(int nx, int ny, double direction, bool periodic, const std::function<double(int, int)>& height,
+        const ImpactAngles& angles = tan_impact)
+      : geometry(0, 0, cell, nx, ny), frame(geometry, direction, periodic), impacts(frame, angles, 0.01, 1) {
     std::vector<double> h(geometry.size());
     for (int y = 0; y < ny; ++y)
       for (int x = 0; x < nx; ++x) h[geometry.index(x, y)] = height(x, y);
@@ -60,20 +59,72 @@ TEST(ImpactSweepTest, a_shadow_ends_where_grains_pass_the_crest) {
   }
 }
 
+TEST(ImpactSweepTest, the_edge_of_a_shadow_is_as_wide_as_the_spread_of_the_angles) {
+  // Behind a crest, each angle's shadow ends by itself: exposure is the share of the angles that have passed.
+  constexpr double crest = 0.01;
+  const ImpactAngles angles(0.2, 0.08);
+  const Sweep sweep(
+      400, 12, 0, false, [](int x, int) { return x >= 50 && x < 60 ? crest : 0.0; }, angles);
+  for (int station = 61; station < 400; ++station) {
+    double share = 0;
+    bool at_an_edge = false;
+    for (int n = 0; n < angles.count(); ++n) {
+      const double end = 59 + crest / angles.tangent(n) / cell;
+      if (station > end) share += angles.weight(n);
+      at_an_edge = at_an_edge || std::abs(station - end) <= 1;
+    }
+    if (!at_an_edge) {
+      ASSERT_NEAR(sweep.erosion(station, 6), share, 1e-9) << station;
+    }
+  }
+}
+
 TEST(ImpactSweepTest, every_impact_of_the_supply_strikes_a_periodic_bed) {
-  for (const double direction : {0.0, 0.3, M_PI / 4, 2.0}) {
-    const Sweep sweep(120, 100, direction, true, [](int x, int y) {
-      return 0.006 * std::sin(2 * M_PI * x / 40) + 0.003 * std::cos(2 * M_PI * (y - x) / 20);
-    });
-    double struck = 0;
-    double fell = 0;
-    for (int station = 0; station < sweep.frame.stations(); ++station)
-      for (int q = 0; q < sweep.frame.rows(); ++q) {
-        struck += sweep.erosion(station, q);
-        fell += sweep.impacts.deposition().at(station)[q];
-      }
-    EXPECT_NEAR(struck / 12000, 1, 1e-12) << direction;
-    EXPECT_NEAR(fell / struck, 1, 1e-12) << direction;
+  for (const ImpactAngles& angles : {ImpactAngles(tan_impact), ImpactAngles(0.2, 0.1)})
+    for (const double direction : {0.0, 0.3, M_PI / 4, 2.0}) {
+      const Sweep sweep(
+          120, 100, direction, true,
+          [](int x, int y) {
+            return 0.006 * std::sin(2 * M_PI * x / 40) + 0.003 * std::cos(2 * M_PI * (y - x) / 20);
+          },
+          angles);
+      double struck = 0;
+      double fell = 0;
+      for (int station = 0; station < sweep.frame.stations(); ++station)
+        for (int q = 0; q < sweep.frame.rows(); ++q) {
+          struck += sweep.erosion(station, q);
+          fell += sweep.impacts.deposition().at(station)[q];
+        }
+      EXPECT_NEAR(struck / 12000, 1, 1e-12) << direction;
+      EXPECT_NEAR(fell / struck, 1, 1e-12) << direction;
+    }
+}
+
+TEST(ImpactAnglesTest, nodes_have_the_moments_of_the_distribution) {
+  // Of a log-normal of this mean and deviation, the mean of 1 / angle is (1 + ratio^2) / mean; the
+  // cotangent is a third of the angle less.
+  const ImpactAngles angles(0.1, 0.03);
+  double mean = 0;
+  double square = 0;
+  for (int n = 0; n < angles.count(); ++n) {
+    const double angle = std::atan(angles.tangent(n));
+    mean += angles.weight(n) * angle;
+    square += angles.weight(n) * angle * angle;
+  }
+  EXPECT_NEAR(mean, 0.1, 1e-5);
+  EXPECT_NEAR(std::sqrt(square - mean * mean), 0.03, 1e-4);
+  EXPECT_NEAR(1 / angles.effective_tangent(), 1.09 / 0.1 - 0.1 / 3, 0.01);
+}
+
+TEST(ImpactAnglesTest, without_spread_there_is_one_and_with_much_none_is_out_of_range) {
+  const ImpactAngles one(0.17, 0);
+  EXPECT_EQ(one.count(), 1);
+  EXPECT_EQ(one.tangent(0), std::tan(0.17));
+  EXPECT_EQ(one.effective_tangent(), std::tan(0.17));
+  const ImpactAngles wide(1.0, 1.0);
+  for (int n = 0; n < wide.count(); ++n) {
+    EXPECT_GE(wide.tangent(n), std::tan(ImpactAngles::shallowest));
+    EXPECT_LE(wide.tangent(n), std::tan(ImpactAngles::steepest));
   }
 }
 

@@ -37,6 +37,23 @@ TEST(SaltationTableTest, error_is_within_its_budget_and_true) {
   EXPECT_NEAR(small_table().law(0.000275).flux(0.41) / s.mass_flux(), 1, 0.03);
 }
 
+TEST(SaltationTableTest, a_summary_knows_how_far_impact_angles_spread) {
+  const SaltatingBed bed;
+  const SteadyState s = SaltationSolver(bed, *splash(bed)).solve(0.4);
+  const SaltationState state = summary(s, 0.2);
+  double number = 0;
+  double square = 0;
+  for (std::size_t k = 0; k < s.launches.number.size(); ++k) {
+    const double apart = std::atan2(s.landings.vy[k], s.landings.vx[k]) - state.impact_angle;
+    if (!(s.launches.number[k] > 0)) continue;
+    number += s.launches.number[k];
+    square += s.launches.number[k] * apart * apart;
+  }
+  EXPECT_NEAR(state.impact_angle_spread, std::sqrt(square / number), 1e-9);
+  EXPECT_GT(state.impact_angle_spread, 0.01);
+  EXPECT_LT(state.impact_angle_spread, state.impact_angle * 2);
+}
+
 TEST(SaltationTableTest, nothing_moves_up_to_the_threshold_and_flux_rises_from_it) {
   const double threshold = small_table().state(0.1, 0.00025).impact_threshold;
   EXPECT_EQ(small_table().state(threshold, 0.00025).mass_flux, 0);
