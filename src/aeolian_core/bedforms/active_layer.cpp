@@ -141,14 +141,22 @@ void ActiveLayer::settle() {
   std::vector<double> coarsest(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {
     std::vector<double> most(static_cast<std::size_t>(rows), 0.0);
+    std::vector<int> unsettled;
     for (int i = block * stations_at_once; i < std::min((block + 1) * stations_at_once, n); ++i) {
       const std::int64_t left = exchange(rows, nominal_, least_part * stratum_, stratum_, thickness_.at(i),
                                          coarse_.at(i), upper_.at(i), upper_coarse_.at(i), fraction_.at(i));
       if (left > 0) {
         // Settled cells have the layer's thickness exactly, and a stratum that is neither full nor used up.
+        unsettled.clear();
         for (int row = 0; row < rows; ++row)
-          if (thickness_.at(i)[row] != nominal_) settle_cell(i, row);
-        mix(i);
+          if (thickness_.at(i)[row] != nominal_) {
+            unsettled.push_back(row);
+            bed_.strata.fetch(cell(i, row));
+          }
+        for (const int row : unsettled) {
+          settle_cell(i, row);
+          fraction_.at(i)[row] = coarse_part(coarse_.at(i)[row], nominal_);
+        }
       }
       fraction_.fill_pads(i, frame_.periodic());
       widen_maximum(rows, fraction_.at(i), most.data());

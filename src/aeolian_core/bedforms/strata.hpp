@@ -24,6 +24,11 @@ class Strata {
   void bury(std::size_t cell, float coarse);
   /// Takes the uppermost stratum of a cell away; its coarse sand [m].
   double unearth(std::size_t cell);
+  /// Has the memory of a cell fetched that is soon to be buried or unearthed: cells lie far apart.
+  void fetch(std::size_t cell) const {
+    __builtin_prefetch(&columns_[cell], 1);
+    __builtin_prefetch(&coarse_[cell * static_cast<std::size_t>(remembered_)], 1);
+  }
   /// Fraction of coarse grains in the stratum that is k-th from above.
   double fraction(std::size_t cell, int k) const;
 
@@ -47,7 +52,7 @@ class Strata {
   double thickness_ = 0;
   double bulk_ = 0;
   std::vector<float, LargePages<float>> coarse_;  ///< [m], a ring for each cell
-  std::vector<Column> columns_;
+  std::vector<Column, LargePages<Column>> columns_;
 };
 
 }  // namespace aeolian
