@@ -24,8 +24,9 @@ void check(const SortedForcing& forcing, double duration) {
   check(forcing.coarse, duration);
   require_order(forcing.fine.grain.diameter, forcing.coarse.grain.diameter);
   if (forcing.fine.direction != forcing.coarse.direction ||
-      forcing.fine.impact_angle != forcing.coarse.impact_angle)
-    throw Error("sorted forcing: direction and impact angle of both sizes must be those of one wind");
+      forcing.fine.impact_angle != forcing.coarse.impact_angle ||
+      forcing.fine.impact_angle_spread != forcing.coarse.impact_angle_spread)
+    throw Error("sorted forcing: direction and impact angles of both sizes must be those of one wind");
 }
 
 SortedForcing sorted_forcing(const Forcing& fine, double coarse_diameter) {

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aeolian_core/bedforms/impact_angles.hpp"
 #include "aeolian_core/surface/golden_section.hpp"
 
 namespace aeolian {
 
 SortedGrowth::SortedGrowth(const SortedForcing& forcing, const RippleParameters& ripples,
                            double coarse_fraction)
-    : contrast_(1 / std::tan(forcing.fine.impact_angle)),
+    : contrast_(
+          1 / ImpactAngles(forcing.fine.impact_angle, forcing.fine.impact_angle_spread).effective_tangent()),
       shortening_(ripples.hop_shortening),
       slope_effect_(ripples.slope_effect),
       fine_{1 - coarse_fraction, forcing.fine.erosion_rate(), forcing.fine.reptation_length},

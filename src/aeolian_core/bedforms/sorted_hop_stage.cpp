@@ -5,18 +5,24 @@
 namespace aeolian {
 namespace {
 
-/// Exposure of station k - 1: the mean of the stretches before and behind it.
-AEOLIAN_KERNEL void expose(std::ptrdiff_t count, double drop, const double* __restrict h,
-                           double* __restrict envelope, double* __restrict stretch,
-                           double* __restrict exposure) {
-  const double per_drop = 1 / drop;
+/// Adds what impacts of one angle expose of the stretch that ends here.
+AEOLIAN_KERNEL void expose(std::ptrdiff_t count, double drop, double per_height, const double* __restrict h,
+                           double* __restrict envelope, double* __restrict here) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double fallen = envelope[i] - drop;
     const double top = fallen > h[i] ? fallen : h[i];
-    const double here = (top - fallen) * per_drop;
     envelope[i] = top;
-    exposure[i] = 0.5 * (stretch[i] + here);
-    stretch[i] = here;
+    here[i] += (top - fallen) * per_height;
+  }
+}
+
+/// Exposure of station k - 1: the mean of the stretches before and behind it.
+AEOLIAN_KERNEL void average(std::ptrdiff_t count, double* __restrict here, double* __restrict stretch,
+                            double* __restrict exposure) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    exposure[i] = 0.5 * (stretch[i] + here[i]);
+    stretch[i] = here[i];
+    here[i] = 0;
   }
 }
 
@@ -63,8 +69,9 @@ AEOLIAN_KERNEL void carry(const HopLaw& given, Part given_part, double largest, 
 
 SortedHopStage::SortedHopStage(int lines) {
   const auto count = static_cast<std::size_t>(lines);
-  envelope_.assign(count, 0.0);
-  exposure_.assign(count, 0.0);
+  for (std::vector<double>& envelope : envelope_) envelope.assign(count, 0.0);
+  stretch_.assign(count, 0.0);
+  here_.assign(count, 0.0);
   for (Flux& f : flux_)
     for (std::vector<double>* memory : {&f.grains, &f.heights, &f.flux, &f.flux_before, &f.in, &f.out})
       memory->assign(count, 0.0);
@@ -75,8 +82,11 @@ void SortedHopStage::sweep(const std::array<SizeLaw, sizes>& law, int begin, int
                            const double* fraction_2, const double* exposure_2, double* exposure_1,
                            const std::array<double*, sizes>& deposition) {
   const int count = end - begin;
-  expose(count, law[0].hop.drop, height + begin, envelope_.data() + begin, exposure_.data() + begin,
-         exposure_1 + begin);
+  const HopLaw& impacts = law[0].hop;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(impacts.angles); ++n)
+    expose(count, impacts.drop[n], impacts.exposed_per_height[n], height + begin, envelope_[n].data() + begin,
+           here_.data() + begin);
+  average(count, here_.data() + begin, stretch_.data() + begin, exposure_1 + begin);
   for (std::size_t s = 0; s < sizes; ++s) {
     Flux& f = flux_[s];
     const Part part{law[s].share(0), law[s].share(1) - law[s].share(0)};
@@ -91,8 +101,8 @@ void SortedHopStage::sweep(const std::array<SizeLaw, sizes>& law, int begin, int
 void SortedHopStage::begin(const std::array<SizeLaw, sizes>& law, int line, double height, double fraction,
                            double supply) {
   const auto at = static_cast<std::size_t>(line);
-  envelope_[at] = height;
-  exposure_[at] = 1;
+  for (std::vector<double>& envelope : envelope_) envelope[at] = height;
+  stretch_[at] = 1;
   for (std::size_t s = 0; s < sizes; ++s) {
     Flux& f = flux_[s];
     const double flux = supply * law[s].share(fraction) * law[s].hop.flat_flux;

@@ -49,7 +49,8 @@ class SortedHopStage {
   };
   const Flux& flux_of(int size) const { return flux_[static_cast<std::size_t>(size)]; }
 
-  std::vector<double> envelope_, exposure_;
+  std::array<std::vector<double>, ImpactAngles::most> envelope_;
+  std::vector<double> stretch_, here_;  ///< exposure of the last stretch and of this one
   std::array<Flux, sizes> flux_;
 };
 

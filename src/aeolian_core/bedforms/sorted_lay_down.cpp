@@ -70,18 +70,19 @@ SortedLaidDown lay_down(const WindFrame& frame, const SortedSweep& sweep,
 
   const auto lay_down_block = [&](int begin, int end, SortedLaidDown& result) {
     std::array<FrameField, sizes> deposition;
-    std::array<int, sizes> from{};
     for (std::size_t s = 0; s < sizes; ++s) {
-      from[s] = periodic ? begin - spread[s].reach() : std::max(0, begin - spread[s].reach());
+      deposition[s] = FrameField(end - begin, rows);
+      const int from = periodic ? begin - spread[s].reach() : std::max(0, begin - spread[s].reach());
       const int to = periodic ? end + spread[s].reach() : std::min(n, end + spread[s].reach());
-      deposition[s] = FrameField(to - from[s], rows);
-      for (int i = from[s]; i < to; ++i) {
+      LateralSpread::Stream stream(spread[s], from, to, 0, rows, nullptr);
+      for (int i = from; i < to; ++i) {
         const int station = wrapped(i, n);
-        scatter(rows, frame.place(station).upper, sweep.deposition()[s].at(station),
-                deposition[s].at(i - from[s]));
-        deposition[s].fill_mirrored_pads(i - from[s], periodic);
+        scatter(rows, frame.place(station).upper, sweep.deposition()[s].at(station), stream.next());
+        stream.push([&](int complete, const double* values) {
+          if (complete >= begin && complete < end)
+            std::copy_n(values, rows, deposition[s].at(complete - begin));
+        });
       }
-      spread[s].run(deposition[s], from[s], to, 0, rows, nullptr);
     }
     const auto count = static_cast<std::size_t>(rows);
     std::array<std::vector<double>, sizes> eroded{std::vector<double>(count), std::vector<double>(count)};
@@ -99,7 +100,7 @@ SortedLaidDown lay_down(const WindFrame& frame, const SortedSweep& sweep,
           result.outflow[s] += (1 - upper) * fallen[0] + upper * fallen[rows];
         }
       update(rows, {depth, upper, sweep.law()[1].mobility, coarse_hop_ratio}, sweep.struck()[0].at(i),
-             sweep.struck()[1].at(i), deposition[0].at(i - from[0]), deposition[1].at(i - from[1]), bed.at(i),
+             sweep.struck()[1].at(i), deposition[0].at(i - begin), deposition[1].at(i - begin), bed.at(i),
              layer.thickness().at(i), layer.coarse().at(i), fraction, activity.at(i), eroded[0].data(),
              eroded[1].data(), strongest.data());
       layer.fraction().fill_pads(i, periodic);

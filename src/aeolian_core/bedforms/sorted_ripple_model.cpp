@@ -107,14 +107,15 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   const RippleParameters& p = parameters_.ripples;
   const bool periodic = p.border == Border::periodic;
   const double cell = geometry.cell();
-  const double tan_impact = std::tan(fine.impact_angle);
+  const ImpactAngles angles(fine.impact_angle, fine.impact_angle_spread);
+  const double tan_impact = angles.effective_tangent();
   const double tan_repose = std::tan(fine.grain.angle_of_repose);
   const Size coarse = size_of(forcing.coarse, fine);
   const double hop = fine.reptation_length;
   const WindFrame frame(geometry, fine.direction, periodic);
   SortedSweep sweep(frame,
-                    {size_law(frame, tan_impact, hop, p.hop_shortening, 1, false),
-                     size_law(frame, tan_impact, coarse.hop, p.hop_shortening, coarse.mobility, true)},
+                    {size_law(frame, angles, hop, p.hop_shortening, 1, false),
+                     size_law(frame, angles, coarse.hop, p.hop_shortening, coarse.mobility, true)},
                     parameters_.supply);
   const std::array<LateralSpread, 2> spread{LateralSpread(frame, p.lateral_spread * hop / cell),
                                             LateralSpread(frame, p.lateral_spread * coarse.hop / cell)};

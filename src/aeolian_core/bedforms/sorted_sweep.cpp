@@ -88,12 +88,11 @@ int modulo(int i, int n) { return (i % n + n) % n; }
 
 }  // namespace
 
-SizeLaw size_law(const WindFrame& frame, double tan_impact_angle, double hop, double shortening,
+SizeLaw size_law(const WindFrame& frame, const ImpactAngles& angles, double hop, double shortening,
                  double mobility, bool coarse) {
   const double tangent = frame.drift();
   const double across = tangent / (1 + tangent * tangent);
-  return {HopLaw(frame.step(), tan_impact_angle, hop, shortening, frame.blur() * across * across), mobility,
-          coarse};
+  return {HopLaw(frame.step(), angles, hop, shortening, frame.blur() * across * across), mobility, coarse};
 }
 
 SortedSweep::SortedSweep(const WindFrame& frame, const std::array<SizeLaw, sizes>& law, double supply)
@@ -354,7 +353,7 @@ void SortedSweep::run(const FrameField& bed, const FrameField& dune, const Frame
       widen(frame_.rows(), bed.at(i), dune.at(i), low.data(), high.data());
     const double relief =
         *std::max_element(high.begin(), high.end()) - *std::min_element(low.begin(), low.end());
-    const double shadow = std::min<double>(frame_.stations(), std::ceil(relief / law_[0].hop.drop));
+    const double shadow = std::min<double>(frame_.stations(), std::ceil(relief / law_[0].hop.least_drop()));
     const double carried = std::max(law_[0].hop.carried, law_[1].hop.carried);
     first = -static_cast<int>(shadow + std::ceil(24 / -std::log(carried))) - stages * lag;
   }

@@ -62,7 +62,7 @@ class SortedSweep {
 };
 
 /// The law of one size on the lines of a frame; `shortening` as in RippleParameters.
-SizeLaw size_law(const WindFrame& frame, double tan_impact_angle, double hop, double shortening,
+SizeLaw size_law(const WindFrame& frame, const ImpactAngles& angles, double hop, double shortening,
                  double mobility, bool coarse);
 
 }  // namespace aeolian

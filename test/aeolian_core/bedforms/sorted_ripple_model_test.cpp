@@ -64,6 +64,17 @@ TEST(SortedRippleModelTest, two_sizes_alike_are_one) {
     }
 }
 
+TEST(SortedRippleModelTest, impacts_of_several_angles_strike_two_sizes_as_one) {
+  const GridGeometry g(0, 0, 0.002, 100, 60);
+  SortedRippleParameters p = E::parameters();
+  p.coarse_diameter = E::fine().grain.diameter;
+  p.active_layer = 50;
+  Forcing fine = E::fine(0.5);
+  fine.impact_angle_spread = 0.07;
+  const SortedForcing forcing = sorted_forcing(fine, p.coarse_diameter);
+  EXPECT_LT(difference_from_one_size(g, p, forcing, false, E::unit_time), 1e-9);
+}
+
 TEST(SortedRippleModelTest, a_bed_of_one_of_the_sizes_behaves_as_that_size) {
   const GridGeometry g(0, 0, 0.0005, 200, 40);
   for (const double fraction : {0.0, 1.0}) {
