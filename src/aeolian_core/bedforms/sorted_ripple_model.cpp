@@ -6,6 +6,7 @@
 #include <string>
 
 #include "aeolian_core/bedforms/relief.hpp"
+#include "aeolian_core/bedforms/slope_bias.hpp"
 #include "aeolian_core/bedforms/sorted_avalanche.hpp"
 #include "aeolian_core/bedforms/sorted_lay_down.hpp"
 #include "aeolian_core/bedforms/sorted_slope_flux.hpp"
@@ -59,7 +60,12 @@ SortedRippleModel::SortedRippleModel(const SortedRippleParameters& parameters) :
           parameters.active_layer, "half a coarse diameter or more and finite");
   require(parameters.stratum > 0 && std::isfinite(parameters.stratum), "stratum", parameters.stratum,
           "positive and finite");
-  require(parameters.supply >= 0 && parameters.supply <= 1, "supply", parameters.supply, "0 to 1");
+  const auto refuse = [](bool asked, const char* what) {
+    if (asked) throw Error("sorted ripple model: two sizes of grains know no " + std::string(what));
+  };
+  refuse(parameters.ripples.wavelength_law != nullptr, "wavelength law");
+  refuse(parameters.ripples.stochastic_share > 0, "noise of single grains (stochastic_share)");
+  refuse(parameters.ripples.inflow == Inflow::ripples, "inflow of ripples");
   check(parameters.layers());
 }
 
@@ -116,11 +122,12 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   SortedSweep sweep(frame,
                     {size_law(frame, angles, hop, p.hop_shortening, 1, false),
                      size_law(frame, angles, coarse.hop, p.hop_shortening, coarse.mobility, true)},
-                    parameters_.supply);
+                    p.inflow == Inflow::none ? 0 : 1);
   const std::array<LateralSpread, 2> spread{LateralSpread(frame, p.lateral_spread * hop / cell),
                                             LateralSpread(frame, p.lateral_spread * coarse.hop / cell)};
   SortedSlopeFlux slopes(frame, cell, p.slope_effect * hop * erosion_rate);
   SortedAvalanches avalanches(frame, cell, tan_repose);
+  const ActivePatches everywhere(frame.stations(), frame.rows());
 
   const std::vector<double> start = bed.height;
   const double volume_before = bed.volume();
@@ -145,7 +152,10 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
     sweep.run(height, dune, layer.fraction(), depth, thickness);
     const SortedLaidDown laid =
         lay_down(frame, sweep, spread, depth, coarse.hop / hop, height, layer, activity);
-    slopes.run(activity, laid.strongest, depth / erosion_rate, height, layer);
+    const double strongest = p.doubling_slope < M_PI / 2 ? stiffen(frame, cell, std::tan(p.doubling_slope),
+                                                                   dune, height, everywhere, activity)
+                                                         : laid.strongest;
+    slopes.run(activity, strongest, depth / erosion_rate, height, layer);
     avalanches.run(height, layer);
     layer.settle();
 

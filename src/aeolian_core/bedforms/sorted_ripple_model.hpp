@@ -9,13 +9,12 @@
 namespace aeolian {
 
 struct SortedRippleParameters {
-  RippleParameters ripples;
+  RippleParameters ripples;         ///< without wavelength law, noise or inflow of ripples
   double coarse_diameter = 0.0006;  ///< [m]
   double coarse_fraction = 0.2;     ///< of the volume of sand that the wind has not sorted
   double active_layer = 2;          ///< thickness of the layer that impacts keep mixed, in coarse diameters
   double stratum = 1;               ///< thickness of buried strata, in coarse diameters
   int strata = 16;                  ///< that are remembered one by one
-  double supply = 1;  ///< share of the flux over a flat bed that comes in over open borders, 0 to 1
 
   BedLayers layers() const;
 };
@@ -42,7 +41,7 @@ struct SortedChange {
 /// weighted with its fraction; see sorted_growth.hpp for the layer's own part.
 class SortedRippleModel : public BedModel {
  public:
-  /// Throws Error naming a parameter outside its range.
+  /// Throws Error naming a parameter outside its range, or one of RippleModel's that two sizes lack.
   explicit SortedRippleModel(const SortedRippleParameters& parameters);
 
   /// `forcing` is that of the fine grains; sorted_forcing() tells that of the coarse ones. Reads and writes

@@ -128,7 +128,7 @@ inline SortedBed armoured_bed(double coarse_mobility, double time, double step =
   SortedRippleParameters p = E::parameters(Border::open);
   p.ripples.hop_shortening = p.ripples.slope_effect = p.ripples.lateral_spread = 0;
   p.ripples.step = step;
-  p.supply = 0;
+  p.ripples.inflow = Inflow::none;
   SortedForcing forcing = E::forcing();
   forcing.fine.reptation_length = forcing.coarse.reptation_length = 1e6;
   forcing.coarse.ejection_rate =

@@ -272,8 +272,9 @@ TEST(SortedRippleModelTest, bad_input_is_refused) {
         with([](auto& q) { q.coarse_fraction = -0.1; }), with([](auto& q) { q.active_layer = 0.1; }),
         with([](auto& q) { q.active_layer = std::numeric_limits<double>::quiet_NaN(); }),
         with([](auto& q) { q.stratum = 0; }), with([](auto& q) { q.strata = 0; }),
-        with([](auto& q) { q.strata = 1000; }), with([](auto& q) { q.supply = 2; }),
-        with([](auto& q) { q.ripples.step = 0; })})
+        with([](auto& q) { q.strata = 1000; }), with([](auto& q) { q.ripples.stochastic_share = 0.1; }),
+        with([](auto& q) { q.ripples.wavelength_law = make_wavelength_law("constant", 250); }),
+        with([](auto& q) { q.ripples.inflow = Inflow::ripples; }), with([](auto& q) { q.ripples.step = 0; })})
     EXPECT_THROW(SortedRippleModel model(p), Error);
 
   SortedRippleModel model(E::parameters(Border::open));
