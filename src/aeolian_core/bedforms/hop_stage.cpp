@@ -39,6 +39,15 @@ struct HardGroundLines {
   }
 };
 
+/// A flux after hops have ended early or late: on slopes near repose over cells longer than hops the shift,
+/// of first order in the slope, would turn it round or make it many times what it is.
+AEOLIAN_INLINE double shifted(double flux, double shift) {
+  const double raw = flux + shift;
+  const double positive = raw > 0 ? raw : 0;
+  const double most = 3 * flux;
+  return positive < most ? positive : most;
+}
+
 template <int angles>
 AEOLIAN_INLINE double exposed(const HopLaw& law, Memory& m, double height, std::ptrdiff_t i) {
   double sum = 0;
@@ -77,7 +86,7 @@ AEOLIAN_INLINE void sweep_lines(const HopLaw& given, std::ptrdiff_t begin, std::
     m.grains[i] = f;
     m.heights[i] = g;
     const double through =
-        f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
+        shifted(f, law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f));
     // Station k - 2: what comes in, goes out and stays.
     const double raw =
         law.flux_here * m.flux[1 - now][i] + law.flux_downwind * through + law.flux_upwind * m.flux[now][i];

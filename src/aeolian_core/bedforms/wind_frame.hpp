@@ -57,7 +57,8 @@ class WindFrame {
   int first_line() const { return first_line_; }
   int end_line() const { return end_line_; }
 
-  /// Copies a grid's values (x fastest; of a part those of the whole grid) into the frame and back.
+  /// Copies a grid's values (x fastest; of a part those of the whole grid) into the frame and back. The grid
+  /// has its size in both.
   void enter(const std::vector<double>& grid, FrameField& frame) const;
   void leave(const FrameField& frame, std::vector<double>& grid) const;
 

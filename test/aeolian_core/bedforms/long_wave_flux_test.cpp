@@ -23,7 +23,7 @@ std::vector<double> decayed(const GridGeometry& g, const std::vector<double>& he
   frame.enter(height, bed);
   LongWaveFlux flux(frame, cell, wavelength, diffusivity);
   flux.run(dune, duration, nullptr, ActivePatches(frame.stations(), frame.rows()), bed);
-  std::vector<double> result;
+  std::vector<double> result(g.size());
   frame.leave(bed, result);
   return result;
 }
