@@ -48,8 +48,15 @@ AEOLIAN_INLINE double shifted(double flux, double shift) {
   return positive < most ? positive : most;
 }
 
+/// Twice the exposure of either half of a stretch between two stations.
+struct Halves {
+  double before, behind;
+};
+
+/// Both halves have the same share of what a stretch is exposed to...
 template <int angles>
-AEOLIAN_INLINE double exposed(const HopLaw& law, Memory& m, double height, std::ptrdiff_t i) {
+AEOLIAN_INLINE Halves exposed(const HopLaw& law, Memory& m, double height, double, const DeepSand&,
+                              std::ptrdiff_t i) {
   double sum = 0;
   for (int n = 0; n < angles; ++n) {
     const double fallen = m.envelope[n][i] - law.drop[n];
@@ -57,6 +64,24 @@ AEOLIAN_INLINE double exposed(const HopLaw& law, Memory& m, double height, std::
     m.envelope[n][i] = top;
     const double part = (top - fallen) * law.exposed_per_height[n];
     sum = n == 0 ? part : sum + part;
+  }
+  return {sum, sum};
+}
+
+/// ... unless a wall of rock may stand over a pit of sand: then each has what strikes it.
+template <int angles>
+AEOLIAN_INLINE Halves exposed(const HopLaw& law, Memory& m, double height, double height_1,
+                              const HardGroundLines&, std::ptrdiff_t i) {
+  const double middle = 0.5 * (height + height_1);
+  Halves sum{0, 0};
+  for (int n = 0; n < angles; ++n) {
+    const double fallen_half = m.envelope[n][i] - 0.5 * law.drop[n];
+    const double half_top = fallen_half > middle ? fallen_half : middle;
+    const double fallen = half_top - 0.5 * law.drop[n];
+    const double top = fallen > height ? fallen : height;
+    m.envelope[n][i] = top;
+    sum.before += 2 * (half_top - fallen_half) * law.exposed_per_height[n];
+    sum.behind += 2 * (top - fallen) * law.exposed_per_height[n];
   }
   return sum;
 }
@@ -75,10 +100,10 @@ AEOLIAN_INLINE void sweep_lines(const HopLaw& given, std::ptrdiff_t begin, std::
 #pragma GCC ivdep
   for (std::ptrdiff_t i = begin; i < end; ++i) {
     // Exposure of the stretch that ends here.
-    const double here = exposed<angles>(law, m, h[i], i);
+    const Halves here = exposed<angles>(law, m, h[i], h1[i], bed, i);
     // Station k - 1: erosion, and the flux behind it.
-    const double e = bed.eroded(0.5 * (m.exposure[i] + here), i);
-    m.exposure[i] = here;
+    const double e = bed.eroded(0.5 * (m.exposure[i] + here.before), i);
+    m.exposure[i] = here.behind;
     const double launched = law.launched * e;
     const double carried = bed.carried(law, i);
     const double f = carried * m.grains[i] + launched;
