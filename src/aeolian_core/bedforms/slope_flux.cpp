@@ -32,17 +32,23 @@ AEOLIAN_KERNEL void mark_deep(std::ptrdiff_t count, double least, const double* 
   for (std::ptrdiff_t i = 0; i < count; ++i) deep[i] = (h[i] - floor[i]) * open[i] > least ? 1 : 0;
 }
 
-/// What thin faces are told by.
+/// Explicit steps of thin sand in one step of the model: more than that, and it is level over several cells
+/// anyway.
+constexpr double most_steps = 32;
+
+/// What thin faces are told by; none counts as stronger than `most`.
 struct Thin {
   Rows activity, open, deep;
+  double most;
 };
 
 /// Twice the activity of a face between a cell and another one, zero unless that is open, not between two
 /// deep cells and strong enough.
 AEOLIAN_INLINE double thin_face(double a, double a_other, double open, double open_other, double deep,
-                                double deep_other) {
+                                double deep_other, double most) {
   const double sum = (a + a_other) * (open * open_other * (1 - deep * deep_other));
-  return sum > 2 * least_activity ? sum : 0;
+  const double capped = sum < 2 * most ? sum : 2 * most;
+  return sum > 2 * least_activity ? capped : 0;
 }
 
 /// Those around a cell.
@@ -53,10 +59,10 @@ AEOLIAN_INLINE ThinFaces thin_faces(const Thin& t, std::ptrdiff_t i) {
   const double* const a = t.activity.here;
   const double* const o = t.open.here;
   const double* const d = t.deep.here;
-  return {thin_face(a[i], t.activity.behind[i], o[i], t.open.behind[i], d[i], t.deep.behind[i]),
-          thin_face(a[i], t.activity.before[i], o[i], t.open.before[i], d[i], t.deep.before[i]),
-          thin_face(a[i], a[i + 1], o[i], o[i + 1], d[i], d[i + 1]),
-          thin_face(a[i], a[i - 1], o[i], o[i - 1], d[i], d[i - 1])};
+  return {thin_face(a[i], t.activity.behind[i], o[i], t.open.behind[i], d[i], t.deep.behind[i], t.most),
+          thin_face(a[i], t.activity.before[i], o[i], t.open.before[i], d[i], t.deep.before[i], t.most),
+          thin_face(a[i], a[i + 1], o[i], o[i + 1], d[i], d[i + 1], t.most),
+          thin_face(a[i], a[i - 1], o[i], o[i - 1], d[i], d[i - 1], t.most)};
 }
 
 /// The strongest mean activity of the faces around a cell, of which only the thin ones count.
@@ -234,26 +240,28 @@ void SlopeFlux::run_deep(const FrameField& activity, double strongest_activity, 
 /// Through the other faces it flows by explicit steps and no more of it than there is.
 void SlopeFlux::run_thin(const FrameField& activity, double duration, const HardGround& ground,
                          const ActivePatches& active, FrameField& height) {
+  // A fifth keeps every cell between its neighbours.
+  const double per_step = 0.2 * cell_ * cell_;
+  const double cap = most_steps * per_step / (scale_ * duration);
   ActivePatches thin = active;
   std::vector<double> strongest(static_cast<std::size_t>(frame_.stations()), 0.0);
   for_active(active, [&](int i, int begin, int end, auto&& rows_of) {
     for (int row = begin; row < end; row += ActivePatches::rows_each) {
       const int count = std::min(ActivePatches::rows_each, end - row);
-      const double most =
-          strongest_thin(count, {rows_of(activity, row), rows_of(ground.open, row), rows_of(deep_, row)});
+      const double most = strongest_thin(
+          count, {rows_of(activity, row), rows_of(ground.open, row), rows_of(deep_, row), cap});
       thin.set(i, row / ActivePatches::rows_each, most > 0);
       strongest[static_cast<std::size_t>(i)] = std::max(strongest[static_cast<std::size_t>(i)], most);
     }
   });
-  // A fifth keeps every cell between its neighbours.
   const double most = *std::max_element(strongest.begin(), strongest.end());
   if (!(most > 0)) return;
-  const double steps = std::ceil(scale_ * most * duration / (0.2 * cell_ * cell_));
+  const double steps = std::ceil(scale_ * most * duration / per_step);
   for (double step = 0; step < steps; ++step) {
     for_active(thin, [&](int i, int begin, int end, auto&& rows_of) {
       exchange_on_ground(end - begin, gain(duration / steps), rows_of(height, begin),
                          rows_of(ground.floor, begin),
-                         {rows_of(activity, begin), rows_of(ground.open, begin), rows_of(deep_, begin)},
+                         {rows_of(activity, begin), rows_of(ground.open, begin), rows_of(deep_, begin), cap},
                          next_.at(i) + begin);
     });
     for_active(thin, [&](int i, int begin, int end, auto&&) {
