@@ -1,0 +1,125 @@
+// Bed models on scenes that nobody would choose: ./twin stress
+#include <algorithm>
+
+#include "bed_scenes.hpp"
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "aeolian_core/bedforms/ripple_model.hpp"
+
+namespace aeolian {
+namespace {
+
+constexpr std::uint64_t scenes = 150;
+
+double range_of(const HeightMap::Layer& heights) {
+  double low = 1e300;
+  double high = -1e300;
+  for (const float h : heights) {
+    if (!std::isfinite(h)) continue;
+    low = std::min(low, static_cast<double>(h));
+    high = std::max(high, static_cast<double>(h));
+  }
+  return high < low ? 0 : high - low;
+}
+
+/// What holds for a bed after any wind.
+void expect_sound(const BedScene& scene, const HeightMap::Layer& start, const BedChange& change) {
+  const HeightMap::Layer& now = scene.map.layer(layer::elevation);
+  const GridGeometry& g = scene.map.geometry();
+  const double area = g.cell() * g.cell();
+  double largest = 0;
+  double volume = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ASSERT_EQ(std::isfinite(start[i]), std::isfinite(now[i])) << "cell " << i;
+    if (!std::isfinite(now[i])) continue;
+    largest =
+        std::max({largest, std::abs(static_cast<double>(start[i])), std::abs(static_cast<double>(now[i]))});
+    volume += (static_cast<double>(now[i]) - static_cast<double>(start[i])) * area;
+  }
+  // Cells are floats, and pass on what rounding takes from them.
+  const double float_rounding = 1.2e-7 * largest;
+  const double cells = static_cast<double>(now.size());
+  const double unaccounted = change.volume.change - change.volume.inflow + change.volume.outflow;
+  EXPECT_LT(std::abs(unaccounted), 1e-9 * change.volume.moved + 1e-15 * largest * area * cells);
+  EXPECT_NEAR(volume, change.volume.change, float_rounding * area * cells + 1e-9 * change.volume.moved);
+
+  if (scene.map.has(layer::ground))
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const float ground = scene.map.layer(layer::ground)[i];
+      if (!std::isfinite(ground) || !std::isfinite(now[i])) continue;
+      ASSERT_GE(now[i], std::min(ground, start[i]) - float_rounding)
+          << "cell " << i << " dug into the ground";
+    }
+  // What is steeper than repose slides, so the bed's range cannot outgrow its extent; holes are walls.
+  if (count_known(start) < start.size()) return;
+  const double extent = std::hypot(g.length_x(), g.length_y());
+  EXPECT_LE(range_of(now), range_of(start) + extent * std::tan(scene.forcing.grain.angle_of_repose));
+}
+
+class AnyBorder : public testing::TestWithParam<Border> {
+ protected:
+  static RippleModel model() {
+    RippleParameters parameters;
+    parameters.border = GetParam();
+    return RippleModel(parameters);
+  }
+  static void run_all(const SceneKind& kind) {
+    for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
+      BedScene scene = draw_scene(seed, kind);
+      SCOPED_TRACE(fmt::format("seed {}: {}", seed, scene.told()));
+      const HeightMap::Layer start = scene.map.layer(layer::elevation);
+      expect_sound(scene, start, model().advance(scene.map, scene.forcing, scene.duration));
+      if (HasFatalFailure()) return;
+    }
+  }
+};
+
+TEST_P(AnyBorder, sand_everywhere) { run_all({}); }
+TEST_P(AnyBorder, sand_on_hard_ground) { run_all({false, true}); }
+
+TEST_P(AnyBorder, a_wind_that_reverses_every_step) {
+  for (std::uint64_t seed = 1; seed <= scenes / 10; ++seed) {
+    BedScene scene = draw_scene(seed, {});
+    SCOPED_TRACE(fmt::format("seed {}: {}", seed, scene.told()));
+    for (int turn = 0; turn < 50; ++turn) {
+      const HeightMap::Layer start = scene.map.layer(layer::elevation);
+      expect_sound(scene, start, model().advance(scene.map, scene.forcing, scene.duration / 50));
+      if (HasFatalFailure()) return;
+      scene.forcing.direction += M_PI;
+    }
+  }
+}
+
+TEST_P(AnyBorder, as_many_threads_as_there_are_give_the_bits_of_one) {
+  for (std::uint64_t seed = 1; seed <= scenes / 10; ++seed) {
+    BedScene one = draw_scene(seed, {false, seed % 2 == 0});
+    BedScene many = one;
+    {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+      model().advance(one.map, one.forcing, one.duration);
+    }
+    model().advance(many.map, many.forcing, many.duration);
+    EXPECT_EQ(one.map.layer(layer::elevation), many.map.layer(layer::elevation)) << one.told();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RippleModel, AnyBorder, testing::Values(Border::open, Border::periodic),
+                         [](const auto& border) {
+                           return border.param == Border::open ? "open" : "periodic";
+                         });
+
+TEST(RippleModelStress, holes_stay_holes_and_swallow_nothing) {
+  for (const bool ground : {false, true})
+    for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
+      BedScene scene = draw_scene(seed, {true, ground});
+      SCOPED_TRACE(fmt::format("seed {}: {}", seed, scene.told()));
+      const HeightMap::Layer start = scene.map.layer(layer::elevation);
+      expect_sound(scene, start,
+                   RippleModel(RippleParameters{}).advance(scene.map, scene.forcing, scene.duration));
+      if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+}  // namespace
+}  // namespace aeolian
