@@ -57,12 +57,12 @@ DirectionalLines::DirectionalLines(const GridGeometry& g, const HeightMap::Layer
   const auto cells = [](double extent) { return std::max(1, static_cast<int>(extent + 1e-6)); };
   length = cells(std::abs(c) * g.nx() + std::abs(s) * g.ny());
   const int across = cells(std::abs(s) * g.nx() + std::abs(c) * g.ny());
-  const int step = static_cast<int>(std::ceil(static_cast<double>(across) * length / most_samples));
-  count = (across + step - 1) / step;
+  spacing = static_cast<int>(std::ceil(static_cast<double>(across) * length / most_samples));
+  count = (across + spacing - 1) / spacing;
   value.resize(start(count));
   known.resize(start(count));
   for (int line = 0; line < count; ++line) {
-    const double q = line * step - 0.5 * (across - 1);
+    const double q = line * spacing - 0.5 * (across - 1);
     for (int k = 0; k < length; ++k) {
       const double p = k - 0.5 * (length - 1);
       const double x = c * p - s * q;
