@@ -102,6 +102,14 @@ HeightMap averaged(const HeightMap& map, int factor) {
   return result;
 }
 
+/// Beside ground that changed, slopes are not those of stable ground.
+float least_around(const HeightMap::Layer& values, std::size_t i, std::size_t stride) {
+  float least = values[i];
+  for (const std::size_t row : {i - stride, i, i + stride})
+    for (const std::size_t at : {row - 1, row, row + 1}) least = std::min(least, values[at]);
+  return least;
+}
+
 Problem problem_at(const HeightMap& a, const HeightMap& b, const HeightMap::Layer* stable,
                    const Motion& motion) {
   const GridGeometry& g = b.geometry();
@@ -116,7 +124,7 @@ Problem problem_at(const HeightMap& a, const HeightMap& b, const HeightMap::Laye
   for (int y = 1; y + 1 < g.ny(); ++y)
     for (int x = 1; x + 1 < g.nx(); ++x) {
       const std::size_t i = g.index(x, y);
-      if (stable != nullptr && !((*stable)[i] > 0.5F)) continue;
+      if (stable != nullptr && !(least_around(*stable, i, stride) > 0.99F)) continue;
       const auto mean = [&](std::size_t at) { return static_cast<double>(moved[at] + fixed[at]) / 2; };
       const double gx = (mean(i + 1) - mean(i - 1)) / (2 * g.cell());
       const double gy = (mean(i + stride) - mean(i - stride)) / (2 * g.cell());
@@ -157,20 +165,37 @@ Basis basis_of(CoRegistration method, const Problem& problem, double noise_slope
   return basis;
 }
 
-/// A step towards the least differences, and the covariance of where it ends.
-std::pair<Vector, Matrix> solve(const Problem& problem, const Basis& basis) {
+/// What a residual counts, and the derivative of its score.
+struct Weight {
+  double share;
+  double derivative;
+};
+
+Weight weight_of(double residual, bool redescending) {
   constexpr double huber = 1.345;
-  const double limit = huber * std::max(problem.scale, 1e-9);
+  constexpr double tukey = 4.685;
+  const double size = std::abs(residual);
+  if (!redescending) return size <= huber ? Weight{1, 1} : Weight{huber / size, 0};
+  const double u = size / tukey;
+  const double rest = 1 - u * u;
+  return rest > 0 ? Weight{rest * rest, rest * (1 - 5 * u * u)} : Weight{0, 0};
+}
+
+/// A step towards the least differences, and the covariance of where it ends.
+std::pair<Vector, Matrix> solve(const Problem& problem, const Basis& basis, bool redescending) {
+  const double scale = std::max(problem.scale, 1e-9);
   Matrix normal = Matrix::Zero();
   Matrix bread = Matrix::Zero();
   Vector right = Vector::Zero();
   std::map<int, Vector> scores;
   for (const Row& row : problem.rows) {
-    const double weight = std::min(1.0, limit / std::max(std::abs(row.residual), 1e-300));
-    normal.noalias() += weight * row.slope * row.slope.transpose();
-    if (weight == 1) bread.noalias() += row.slope * row.slope.transpose();
-    right.noalias() += weight * row.residual * row.slope;
-    scores.try_emplace(row.block, Vector::Zero()).first->second += weight * row.residual * row.slope;
+    const Weight weight = weight_of(row.residual / scale, redescending);
+    const Matrix product = row.slope * row.slope.transpose();
+    normal.noalias() += weight.share * product;
+    bread.noalias() += weight.derivative * product;
+    const Vector score = weight.share * row.residual * row.slope;
+    right += score;
+    scores.try_emplace(row.block, Vector::Zero()).first->second += score;
   }
   const Eigen::MatrixXd reduced = basis.transpose() * normal * basis;
   const Eigen::LDLT<Eigen::MatrixXd> solver(reduced);
@@ -205,7 +230,10 @@ CoRegistered co_register(const HeightMap& a, const HeightMap& b, CoRegistration 
   constexpr double enough = 1e-3;  // of a cell
   Motion motion(b.geometry());
   HeightMap fixed = b;
-  if (stable != nullptr) fixed.add("stable", *stable);
+  if (stable != nullptr) {
+    HeightMap::Layer& mask = fixed.add("stable", *stable);
+    for (float& v : mask) v = v > 0.5F ? 1.0F : 0.0F;
+  }
   CoRegistered result;
   Matrix covariance = Matrix::Zero();
   for (const int factor : {8, 4, 2, 1}) {
@@ -232,7 +260,7 @@ CoRegistered co_register(const HeightMap& a, const HeightMap& b, CoRegistration 
       }
       const Basis basis = basis_of(method, problem, noise_slope, result.held);
       Vector by;
-      std::tie(by, covariance) = solve(problem, basis);
+      std::tie(by, covariance) = solve(problem, basis, factor == 1);
       // A step is trusted for a cell, within which the surface is linear enough.
       const double farthest = std::hypot(by[east], by[north]) + std::abs(by[turn]);
       if (farthest > cell) by *= cell / farthest;

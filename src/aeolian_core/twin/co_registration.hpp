@@ -26,10 +26,10 @@ struct CoRegistered {
 };
 
 /// Moves `a` onto the elevation of `b` so that the differences are least: the linearised problem of Nuth &
-/// Kaab (2011, The Cryosphere 5, 271-290), solved by Gauss-Newton with Huber's weights (1.345 robust standard
-/// deviations) from maps averaged over 8, 4, 2 cells to the full ones. Angles are taken as small. Standard
-/// errors hold for neighbours that err alike within blocks of 32 cells (sums of scores over blocks: Liang &
-/// Zeger 1986).
+/// Kaab (2011, The Cryosphere 5, 271-290), solved by Gauss-Newton from maps averaged over 8, 4, 2 cells
+/// (Huber's weights, 1.345 robust standard deviations) to the full ones (Tukey's biweight, 4.685: what
+/// changed has no say). Angles are taken as small. Standard errors hold for neighbours that err alike within
+/// blocks of 32 cells (sums of scores over blocks: Liang & Zeger 1986).
 ///
 /// What moved between the surfaces must not be taken for misalignment: with `stable` (a value above 0.5 in a
 /// cell of b's grid) only ground that did not change counts. Without, a shift removes the migration that all

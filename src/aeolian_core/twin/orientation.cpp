@@ -33,7 +33,7 @@ double nearest_to(double angle, double other) { return other + std::remainder(an
 
 Figure crest_normal(const GridGeometry& geometry, const HeightMap::Layer& elevation, double wavelength,
                     double direction) {
-  constexpr double cells_of_wavelength = 12;
+  constexpr double cells_of_wavelength = 20;
   constexpr double least_coherence = 0.1;
   if (!std::isfinite(wavelength) || std::min(geometry.nx(), geometry.ny()) < 4) return {NAN, NAN};
   const int factor = std::clamp(static_cast<int>(wavelength / geometry.cell() / cells_of_wavelength), 1,

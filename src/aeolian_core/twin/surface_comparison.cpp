@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <tbb/parallel_invoke.h>
 
@@ -39,6 +40,7 @@ void require_usable(const ComparisonSettings& settings) {
 /// A surface where all surfaces are known, and what follows from its lines along the wind.
 struct Surface {
   HeightMap::Layer elevation;
+  Plane plane;  ///< that is taken off
   std::optional<DirectionalLines> lines;
   std::optional<LineSpectra> spectra;
   PatternFigures figures;
@@ -89,16 +91,39 @@ Figure relief_height(const GridGeometry& grid, const HeightMap::Layer& elevation
   return {height, std::sqrt(std::max(0.0, variance))};
 }
 
+/// Lays planes under the surfaces: the same one where theirs differ by so little that the phase of a pattern
+/// may be all of it, which would pull the match of two patterns.
+void fit_planes(const GridGeometry& grid, const std::vector<Surface*>& surfaces) {
+  Plane mean;
+  for (Surface* surface : surfaces) {
+    surface->plane = fit_plane(grid, surface->elevation);
+    const double share = 1 / static_cast<double>(surfaces.size());
+    mean.a += share * surface->plane.a;
+    mean.b += share * surface->plane.b;
+    mean.c += share * surface->plane.c;
+  }
+  constexpr double by_phase = 0.3;  // of the roughness, at the map's corners
+  for (const Surface* surface : surfaces) {
+    const double rise = 0.5 * (std::abs(surface->plane.b - mean.b) * grid.nx() +
+                               std::abs(surface->plane.c - mean.c) * grid.ny());
+    const double roughness = difference_statistics(surface->elevation).nmad;
+    if (!(rise <= by_phase * roughness)) return;
+  }
+  for (Surface* surface : surfaces) {
+    surface->plane.b = mean.b;
+    surface->plane.c = mean.c;
+  }
+}
+
 void measure(const GridGeometry& grid, double direction, Surface& surface) {
-  const Plane plane = fit_plane(grid, surface.elevation);
-  surface.lines.emplace(grid, surface.elevation, plane, direction);
+  surface.lines.emplace(grid, surface.elevation, surface.plane, direction);
   surface.spectra.emplace(*surface.lines);
   PatternFigures& figures = surface.figures;
   const double cell = grid.cell();
   const Figure lag = LineCorrelation(*surface.spectra, *surface.spectra).jackknifed(repeating_lag);
   figures.wavelength = {lag.value * cell, lag.sigma * cell};
-  figures.height =
-      relief_height(grid, surface.elevation, plane, direction, surface.lines->count < 16, surface.rms);
+  figures.height = relief_height(grid, surface.elevation, surface.plane, direction, surface.lines->count < 16,
+                                 surface.rms);
   if (std::isnan(lag.value)) {
     figures.height = figures.index = figures.crest_normal = none;
     return;
@@ -246,8 +271,8 @@ SurfaceComparison compare_surfaces(const HeightMap& a, const HeightMap& b, const
   if (settings.stable != nullptr && settings.stable->size() != grid.size())
     throw Error("comparison: the mask of stable ground is on another grid");
 
-  Surface first{a.layer(layer::elevation), {}, {}, {}, 0};
-  Surface second{b.layer(layer::elevation), {}, {}, {}, 0};
+  Surface first{a.layer(layer::elevation), {}, {}, {}, {}, 0};
+  Surface second{b.layer(layer::elevation), {}, {}, {}, {}, 0};
   Surface origin;
   if (start != nullptr) origin.elevation = start->layer(layer::elevation);
   std::size_t common = 0;
@@ -277,6 +302,9 @@ SurfaceComparison compare_surfaces(const HeightMap& a, const HeightMap& b, const
   result.significant_share =
       static_cast<double>(result.volume.significant_cells) / static_cast<double>(result.volume.known_cells);
 
+  std::vector<Surface*> surfaces{&first, &second};
+  if (start != nullptr) surfaces.push_back(&origin);
+  fit_planes(grid, surfaces);
   tbb::parallel_invoke([&] { measure(grid, settings.direction, first); },
                        [&] { measure(grid, settings.direction, second); },
                        [&] {

@@ -143,9 +143,10 @@ void write_registration(std::ostream& out, const ComparedSurfaces& compared) {
   const CoRegistered& r = *compared.registered;
   out << "<h2>Co-registration</h2>\n<p>The first surface was moved onto the second (" << compared.method
       << ", "
-      << (compared.stable_ground
-              ? "from stable ground only"
-              : "from all cells: what all ripples have in common of their migration counts as a shift")
+      << (compared.stable_ground       ? "from stable ground only"
+          : compared.method == "plane" ? "from all cells"
+                                       : "from all cells: what all ripples have in common of their "
+                                         "migration counts as a shift")
       << ").</p>\n";
   FigureTable table(out, {"Moved by", "figure ± standard error"});
   table.row("East", "", {length_words(r.east)});
@@ -174,11 +175,11 @@ void write_comparison_page(const ComparedSurfaces& compared, const std::vector<C
       << (compared.name_start.empty() ? "" : "<br>Initial: " + escape_html(compared.name_start))
       << "</p>\n<p class=\"verdict\">" << escape_html(verdict(c))
       << "</p>\n</header>\n<div class=\"cards\">\n"
-      << card(length_words(c.difference.rmse), "RMSE of first minus second")
-      << card(length_words(c.difference.nmad), "NMAD")
+      << card(length_text(c.difference.rmse.value), "RMSE of first minus second")
+      << card(length_text(c.difference.nmad.value), "NMAD")
       << card(fmt::format("{:.1f} %", 100 * c.significant_share), "of the cells differ beyond LoD95");
   if (std::isfinite(c.offset.value))
-    out << card(length_words(c.offset), "crests of the first downwind of the second's");
+    out << card(length_text(c.offset.value), "crests of the first downwind of the second's");
   if (c.skill) out << card(skill_text(c.skill->persistence.value), "skill against “nothing changes”");
   out << "</div>\n<h2>The surfaces</h2>\n<p>" << grid.nx() << " × " << grid.ny() << " cells of "
       << length_text(grid.cell()) << "; the wind blows "

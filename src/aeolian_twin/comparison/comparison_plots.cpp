@@ -25,11 +25,11 @@ void draw_heights(const HeightMap& map, ValueRange range, const std::string& pat
 }
 
 /// Plain colours, white at zero.
-void draw_signed(const GridGeometry& grid, HeightMap::Layer values, ValueRange range,
-                 const std::string& path) {
+void draw_signed(const GridGeometry& grid, HeightMap::Layer values, const std::string& name,
+                 const std::string& path, ValueRange range) {
   HeightMap map(grid);
   PreviewOptions options;
-  options.layer = "value";
+  options.layer = name;
   map.add(options.layer, std::move(values));
   options.palette = Palette::diverging;
   options.range = range;
@@ -54,11 +54,11 @@ std::vector<ComparisonPicture> draw_maps(const ComparedSurfaces& compared, const
   const HeightMap::Layer& difference = c.map.layer(layer::difference);
   const HeightMap::Layer& levels = c.map.layer(layer::lod95);
   const ValueRange range = display_range(difference, Palette::diverging);
-  draw_signed(grid, difference, range, folder + "/difference.png");
+  draw_signed(grid, difference, layer::difference, folder + "/difference.png", range);
   HeightMap::Layer significant = difference;
   for (std::size_t i = 0; i < significant.size(); ++i)
     if (std::abs(significant[i]) <= levels[i]) significant[i] = 0;
-  draw_signed(grid, std::move(significant), range, folder + "/significant.png");
+  draw_signed(grid, std::move(significant), layer::difference, folder + "/significant.png", range);
   std::vector<ComparisonPicture> pictures{
       {"first.png", "First surface",
        "Heights with light from the north-west, north up." +
@@ -73,8 +73,8 @@ std::vector<ComparisonPicture> draw_maps(const ComparedSurfaces& compared, const
        false}};
   const HeightMap::Layer& displacement = c.map.layer(layer::displacement);
   if (count_known(displacement) == 0) return pictures;
-  draw_signed(grid, displacement, display_range(displacement, Palette::diverging),
-              folder + "/displacement.png");
+  draw_signed(grid, displacement, layer::displacement, folder + "/displacement.png",
+              display_range(displacement, Palette::diverging));
   pictures.push_back(
       {"displacement.png", "How far crests are apart, along the wind",
        "Red: crests of the first lie downwind of the second's, blue: upwind. Each place is a window of "
@@ -138,7 +138,7 @@ ComparisonPicture draw_histogram(const ComparedSurfaces& compared, const std::st
   std::ostringstream script;
   write_data(script << plot_style, "bars", bars);
   write_data(script, "normal", normal);
-  script << "set xlabel 'first - second [" << unit.name
+  script << "set key outside top center horizontal\nset xlabel 'first - second [" << unit.name
          << "]'\nset ylabel 'share of cells [%]'\nset yrange [0:*]\n"
          << fmt::format("set xrange [{}:{}]\nset boxwidth {}\nset style fill solid\n", -half, half,
                         0.9 * width)
@@ -167,14 +167,15 @@ ComparisonPicture draw_coherence(const ComparedSurfaces& compared, const std::st
   std::ostringstream script;
   write_data(script << plot_style, "curve", curve);
   write_data(script, "level", level);
-  script << "set logscale x\nset xlabel 'wavelength along the wind [" << unit.name
-         << "]'\nset ylabel 'squared coherence'\nset yrange [0:1.05]\n"
-         << fmt::format("set xrange [{}:{}]\n", curve.x.back(), curve.x.front())
-         << "set key at graph 0.99, graph 0.97\nplot $level using 1:2 title 'unrelated surfaces stay below, "
-            "95 %' with "
-            "filledcurves y1=0 fc rgb '#ece6de', $curve using 1:3:4 notitle with filledcurves fc rgb "
-            "'#f3c9a9', $curve "
-            "using 1:2 title 'coherence' with lines lw 2 lc rgb forecast\n";
+  script
+      << "set logscale x\nset xlabel 'wavelength along the wind [" << unit.name
+      << "]'\nset ylabel 'squared coherence'\nset yrange [0:1.05]\n"
+      << fmt::format("set xrange [{}:{}]\n", curve.x.back(), curve.x.front())
+      << "set key outside top center horizontal\nplot $level using 1:2 title 'unrelated surfaces stay below, "
+         "95 %' with "
+         "filledcurves y1=0 fc rgb '#ece6de', $curve using 1:3:4 notitle with filledcurves fc rgb "
+         "'#f3c9a9', $curve "
+         "using 1:2 title 'coherence' with lines lw 2 lc rgb forecast\n";
   plot_svg(script.str(), plot_width, plot_height, folder + "/coherence.svg");
   return {"coherence.svg", "How alike they are, wavelength by wavelength",
           "1: the same up to a shift. In the grey: no relation can be told. Shaded: one standard error.",

@@ -85,8 +85,8 @@ TEST(SurfaceComparisonTest, patterns_have_the_figures_of_ripple_statistics) {
     EXPECT_GT(figures->wavelength.sigma, 0);
     EXPECT_NEAR(figures->scales.dominant.value, expected.wavelength, 0.02 * expected.wavelength);
   }
-  EXPECT_NEAR(c.a.crest_normal.value, direction, 0.004);
-  EXPECT_NEAR(c.b.crest_normal.value, direction + 0.1, 0.004);
+  EXPECT_NEAR(c.a.crest_normal.value, direction, 0.005);
+  EXPECT_NEAR(c.b.crest_normal.value, direction + 0.1, 0.005);
 }
 
 /// Bar: migration to 1 %, of the shift or, for those of less than a tenth of a wavelength, of a cell.
@@ -169,7 +169,7 @@ TEST(SurfaceComparisonTest, levels_say_what_they_rest_on) {
   const SurfaceComparison c = compare_surfaces(a, b, nullptr, settings);
   EXPECT_NE(c.detection.find("stable ground"), std::string::npos);
   EXPECT_NEAR(static_cast<double>(c.map.layer(layer::lod95)[0]), 1.96 * 0.001 * std::sqrt(2.0), 5e-5);
-  EXPECT_NEAR(c.volume.gain.value, 0.05 * 60000 * 4e-6, 5e-6);
+  EXPECT_NEAR(c.volume.gain.value, 0.05 * 60000 * 4e-6, 1e-5);
   settings.sigma_a = 0.002;
   settings.sigma_b = 0.001;
   EXPECT_NEAR(static_cast<double>(compare_surfaces(a, b, nullptr, settings).map.layer(layer::lod95)[0]),
