@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "aeolian_core/measure/parabola.hpp"
-
 namespace aeolian {
 namespace {
 
@@ -181,14 +179,9 @@ std::optional<double> lag_of_best_match(const LineCorrelation::Curve& curve, dou
     tops.push_back(i);
     highest = std::max(highest, curve[i]);
   }
-  // A sixteenth of a wavelength to both sides: noise is averaged, and a parabola still fits a cosine.
-  const auto half = static_cast<std::size_t>(std::max(1.0, std::round(range / 8)));
   std::optional<double> best;
   for (const std::size_t i : tops) {
-    if (i < half || i + half >= curve.size()) continue;
-    const auto vertex = parabola_vertex(curve, i - half, i + half);
-    if (!vertex || vertex->curvature >= 0) continue;
-    const double lag = vertex->position - zero;
+    const double lag = static_cast<double>(i) - zero + parabola_top(curve, i);
     if (curve[i] > highest - equal && std::abs(lag) <= range && (!best || std::abs(lag) < std::abs(*best)))
       best = lag;
   }

@@ -11,6 +11,7 @@
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/twin/block_sums.hpp"
 #include "aeolian_core/twin/difference.hpp"
+#include "aeolian_core/twin/line_match.hpp"
 #include "aeolian_core/twin/line_spectra.hpp"
 #include "aeolian_core/twin/orientation.hpp"
 #include "aeolian_core/twin/translation.hpp"
@@ -154,10 +155,9 @@ bool equal(const HeightMap::Layer& a, const HeightMap::Layer& b) {
 Figure displacement(const Surface& earlier, const Surface& later, double wavelength, double cell) {
   if (equal(earlier.elevation, later.elevation)) return {0, 0};
   const double range = search_range(wavelength, *earlier.lines);
-  const Figure lag =
-      LineCorrelation(*earlier.spectra, *later.spectra).jackknifed([&](const LineCorrelation::Curve& curve) {
-        return lag_of_best_match(curve, range);
-      });
+  const auto near = lag_of_best_match(LineCorrelation(*earlier.spectra, *later.spectra).curve(), range);
+  if (!near) return none;
+  const Figure lag = match_lines(*earlier.lines, *later.lines, *near);
   return {lag.value * cell, lag.sigma * cell};
 }
 
