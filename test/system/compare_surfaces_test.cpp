@@ -181,7 +181,6 @@ TEST_F(CompareSurfacesTest, refuses_what_cannot_be_compared_in_one_line) {
   write_text_atomically(file("empty.csv"), "");
   says(a + file("empty.csv"), "empty.csv");
   says(a + file("none.tif"), "none.tif");
-  says(a + a + "--direction-deg 400", "--direction-deg");
 }
 
 }  // namespace

@@ -34,14 +34,25 @@ float bilinear(const GridGeometry& g, const HeightMap::Layer& values, double u, 
 Plane fit_plane(const GridGeometry& g, const HeightMap::Layer& elevation) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int iy = 0; iy < g.ny(); ++iy)
+  for (int iy = 0; iy < g.ny(); ++iy) {
+    double n = 0, x = 0, xx = 0, h = 0, xh = 0;  // sums over the row
+    const float* row = elevation.data() + g.index(0, iy);
     for (int ix = 0; ix < g.nx(); ++ix) {
-      const float h = elevation[g.index(ix, iy)];
-      if (!std::isfinite(h)) continue;
-      const Eigen::Vector3d row(1, ix - 0.5 * (g.nx() - 1), iy - 0.5 * (g.ny() - 1));
-      normal += row * row.transpose();
-      right += row * static_cast<double>(h);
+      const bool known = std::isfinite(row[ix]);
+      const double place = known ? ix - 0.5 * (g.nx() - 1) : 0;
+      const double height = known ? static_cast<double>(row[ix]) : 0;
+      n += known ? 1 : 0;
+      x += place;
+      xx += place * place;
+      h += height;
+      xh += place * height;
     }
+    const double y = iy - 0.5 * (g.ny() - 1);
+    Eigen::Matrix3d of_row;
+    of_row << n, x, n * y, x, xx, x * y, n * y, x * y, n * y * y;
+    normal += of_row;
+    right += Eigen::Vector3d(h, xh, h * y);
+  }
   if (normal(0, 0) == 0) return {};
   const Eigen::ColPivHouseholderQR<Eigen::Matrix3d> solver(normal);
   if (solver.rank() < 3) return {right(0) / normal(0, 0), 0, 0};
