@@ -95,7 +95,9 @@ ComparisonPicture draw_profiles(const ComparedSurfaces& compared, const std::str
   };
   const Unit along = length_unit(grid.length_x());
   std::ostringstream script;
-  script << plot_style << "set multiplot layout 2,1\nset key outside top right horizontal\nset lmargin 9\nset xlabel 'x [" << along.name << "]'\n";
+  script << plot_style
+         << "set multiplot layout 2,1\nset key outside top right horizontal\nset lmargin 9\nset xlabel 'x ["
+         << along.name << "]'\n";
   write_data(script, "first", curve(compared.a.layer(layer::elevation), along.factor));
   write_data(script, "second", curve(compared.b.layer(layer::elevation), along.factor));
   write_data(script, "difference", curve(compared.comparison.map.layer(layer::difference), along.factor));
