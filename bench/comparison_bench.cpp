@@ -13,6 +13,7 @@
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/twin/comparison.hpp"
 #include "aeolian_core/twin/difference.hpp"
+#include "aeolian_core/twin/surface_comparison.hpp"
 
 namespace aeolian {
 namespace {
@@ -81,6 +82,24 @@ void difference_of_maps(benchmark::State& state, bool reuse) {
 BENCHMARK_CAPTURE(difference_of_maps, in_memory_of_the_last, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(difference_of_maps, in_new_memory, false)->Unit(benchmark::kMillisecond);
 
+/// All figures of two maps with their errors, on the threads that there are; with a start the skill as well.
+void all_figures(benchmark::State& state, bool with_start) {
+  const GridGeometry grid(0, 0, 0.002, static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const auto map = [&](double shift, std::uint64_t stream) {
+    HeightMap result(grid);
+    result.add(layer::elevation, rippled(grid, shift, stream));
+    result.add(layer::variance, 0.25e-6F);
+    return result;
+  };
+  const HeightMap start = map(0, 0);
+  const HeightMap measured = map(0.02, 1);
+  const HeightMap predicted = map(0.015, 2);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(compare_surfaces(predicted, measured, with_start ? &start : nullptr, {}));
+  state.counters["cells/s"] =
+      benchmark::Counter(static_cast<double>(grid.size()), benchmark::Counter::kIsIterationInvariantRate);
+}
+
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({500, 250})
       ->Args({1000, 1000})
@@ -88,6 +107,8 @@ void sizes(benchmark::internal::Benchmark* bench) {
       ->UseRealTime()
       ->MeasureProcessCPUTime();
 }
+BENCHMARK_CAPTURE(all_figures, of_two_maps, false)->Apply(sizes);
+BENCHMARK_CAPTURE(all_figures, with_a_start, true)->Apply(sizes);
 BENCHMARK_CAPTURE(compare_maps, along_rows, 0.0)->Apply(sizes);
 BENCHMARK_CAPTURE(compare_maps, oblique, 0.5)->Apply(sizes);
 

@@ -34,14 +34,25 @@ float bilinear(const GridGeometry& g, const HeightMap::Layer& values, double u, 
 Plane fit_plane(const GridGeometry& g, const HeightMap::Layer& elevation) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int iy = 0; iy < g.ny(); ++iy)
+  for (int iy = 0; iy < g.ny(); ++iy) {
+    double n = 0, x = 0, xx = 0, h = 0, xh = 0;  // sums over the row
+    const float* row = elevation.data() + g.index(0, iy);
     for (int ix = 0; ix < g.nx(); ++ix) {
-      const float h = elevation[g.index(ix, iy)];
-      if (!std::isfinite(h)) continue;
-      const Eigen::Vector3d row(1, ix - 0.5 * (g.nx() - 1), iy - 0.5 * (g.ny() - 1));
-      normal += row * row.transpose();
-      right += row * static_cast<double>(h);
+      const bool known = std::isfinite(row[ix]);
+      const double place = known ? ix - 0.5 * (g.nx() - 1) : 0;
+      const double height = known ? static_cast<double>(row[ix]) : 0;
+      n += known ? 1 : 0;
+      x += place;
+      xx += place * place;
+      h += height;
+      xh += place * height;
     }
+    const double y = iy - 0.5 * (g.ny() - 1);
+    Eigen::Matrix3d of_row;
+    of_row << n, x, n * y, x, xx, x * y, n * y, x * y, n * y * y;
+    normal += of_row;
+    right += Eigen::Vector3d(h, xh, h * y);
+  }
   if (normal(0, 0) == 0) return {};
   const Eigen::ColPivHouseholderQR<Eigen::Matrix3d> solver(normal);
   if (solver.rank() < 3) return {right(0) / normal(0, 0), 0, 0};
@@ -57,12 +68,12 @@ DirectionalLines::DirectionalLines(const GridGeometry& g, const HeightMap::Layer
   const auto cells = [](double extent) { return std::max(1, static_cast<int>(extent + 1e-6)); };
   length = cells(std::abs(c) * g.nx() + std::abs(s) * g.ny());
   const int across = cells(std::abs(s) * g.nx() + std::abs(c) * g.ny());
-  const int step = static_cast<int>(std::ceil(static_cast<double>(across) * length / most_samples));
-  count = (across + step - 1) / step;
+  spacing = static_cast<int>(std::ceil(static_cast<double>(across) * length / most_samples));
+  count = (across + spacing - 1) / spacing;
   value.resize(start(count));
   known.resize(start(count));
   for (int line = 0; line < count; ++line) {
-    const double q = line * step - 0.5 * (across - 1);
+    const double q = line * spacing - 0.5 * (across - 1);
     for (int k = 0; k < length; ++k) {
       const double p = k - 0.5 * (length - 1);
       const double x = c * p - s * q;

@@ -23,6 +23,7 @@ Plane fit_plane(const GridGeometry& geometry, const HeightMap::Layer& elevation)
 /// with them.
 struct DirectionalLines {
   int count = 0;             ///< of lines
+  int spacing = 1;           ///< of lines [cells]
   int length = 0;            ///< samples in each
   std::vector<float> value;  ///< line by line, 0 where unknown
   std::vector<float> known;  ///< 1 or 0

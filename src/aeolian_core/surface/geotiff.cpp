@@ -179,4 +179,19 @@ GeotiffNotes read_geotiff_notes(const std::string& path) {
   return notes;
 }
 
+std::string read_geotiff_projection(const std::string& path) {
+  const QuietGdal quiet;
+  const Dataset dataset = open(path, "GeoTIFF '" + path + "': ");
+  return dataset->GetProjectionRef();
+}
+
+bool same_projection(const std::string& a, const std::string& b) {
+  const QuietGdal quiet;
+  OGRSpatialReference first;
+  OGRSpatialReference second;
+  if (first.SetFromUserInput(a.c_str()) != OGRERR_NONE || second.SetFromUserInput(b.c_str()) != OGRERR_NONE)
+    return a == b;
+  return first.IsSame(&second) != 0;
+}
+
 }  // namespace aeolian

@@ -25,4 +25,11 @@ HeightMap read_geotiff(const std::string& path);
 /// file when it is not a raster.
 GeotiffNotes read_geotiff_notes(const std::string& path);
 
+/// The projection (with its datums) that a file states, as write_geotiff takes it; empty when it states none.
+/// Throws Error naming the file when it is not a raster.
+std::string read_geotiff_projection(const std::string& path);
+
+/// Whether two projections are the same, datums and units included, however they are written.
+bool same_projection(const std::string& a, const std::string& b);
+
 }  // namespace aeolian

@@ -76,7 +76,7 @@ Unit unit_of(const std::string& name, const ValueRange& range) {
   if (name == layer::age) return {"s", 1};
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
   if (name == layer::variance) return largest < 1e-3 ? Unit{"mm^2", 1e6} : Unit{"m^2", 1};
-  for (const char* length : {"elevation", "ground", "difference"})
+  for (const char* length : {"elevation", "ground", "difference", "displacement"})
     if (name.find(length) != std::string::npos) return largest < 1 ? Unit{"mm", 1e3} : Unit{"m", 1};
   return {};
 }
