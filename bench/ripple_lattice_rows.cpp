@@ -3,8 +3,8 @@
 
 #include "ripple_rows.hpp"
 
-#include "aeolian_core/bedforms/independent_members.hpp"
-#include "aeolian_core/bedforms/lattice_slice.hpp"
+#include "aeolian_core/bedforms/lattice/lattice_slice.hpp"
+#include "aeolian_core/bedforms/theory/independent_members.hpp"
 
 namespace aeolian {
 namespace {

@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
-#include "aeolian_core/bedforms/independent_members.hpp"
+#include "aeolian_core/bedforms/theory/independent_members.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {

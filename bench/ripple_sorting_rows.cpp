@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../test/aeolian_core/bedforms/sorted_experiments.hpp"
+#include "../test/aeolian_core/bedforms/sorting/sorted_experiments.hpp"
 #include "ripple_rows.hpp"
 
-#include "aeolian_core/bedforms/sub_grid_roughness.hpp"
+#include "aeolian_core/bedforms/sorting/sub_grid_roughness.hpp"
 
 namespace aeolian {
 namespace {

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../test/aeolian_core/bedforms/ripple_experiments.hpp"
+#include "../test/aeolian_core/bedforms/theory/ripple_experiments.hpp"
 #include "ripple_rows.hpp"
 
-#include "aeolian_core/bedforms/haff_bed.hpp"
-#include "aeolian_core/bedforms/independent_members.hpp"
-#include "aeolian_core/bedforms/merger_theory.hpp"
-#include "aeolian_core/bedforms/periodic_profile.hpp"
-#include "aeolian_core/bedforms/ripple_collision.hpp"
-#include "aeolian_core/bedforms/worm_model.hpp"
+#include "aeolian_core/bedforms/lattice/haff_bed.hpp"
+#include "aeolian_core/bedforms/theory/independent_members.hpp"
+#include "aeolian_core/bedforms/theory/merger_theory.hpp"
+#include "aeolian_core/bedforms/theory/periodic_profile.hpp"
+#include "aeolian_core/bedforms/theory/ripple_collision.hpp"
+#include "aeolian_core/bedforms/theory/worm_model.hpp"
 
 namespace aeolian {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "ripple_rows.hpp"
 
-#include "aeolian_core/bedforms/ripple_model.hpp"
+#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
 #include "aeolian_core/measure/ripple_tracking.hpp"
 #include "aeolian_core/surface/random.hpp"
 

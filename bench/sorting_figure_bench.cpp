@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "../test/aeolian_core/bedforms/sorted_experiments.hpp"
+#include "../test/aeolian_core/bedforms/sorting/sorted_experiments.hpp"
 #include <fmt/format.h>
 
 #include "aeolian_core/twin/gnuplot.hpp"

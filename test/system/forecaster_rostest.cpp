@@ -10,7 +10,7 @@
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
 
-#include "aeolian_core/bedforms/ripple_model.hpp"
+#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
 #include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"

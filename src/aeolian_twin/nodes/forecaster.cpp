@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "aeolian_core/bedforms/ripple_model.hpp"
+#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
 #include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/twin/forecast.hpp"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "aeolian_core/bedforms/merger_theory.hpp"
-#include "aeolian_core/bedforms/ripple_collision.hpp"
+#include "aeolian_core/bedforms/theory/merger_theory.hpp"
+#include "aeolian_core/bedforms/theory/ripple_collision.hpp"
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
 #include "aeolian_twin/tools/theory_tables.hpp"

@@ -28,10 +28,15 @@ constexpr const char* description =
 The bed is a map (GeoTIFF with a band elevation [m], and ground [m] where hard ground lies under the sand) or level and
 screeded. Models: height_map, the one that forecasts; lattice, a bed of single grains, the slow truth; haff, Haff's
 height bins, for winds along an axis of the map. A level bed is periodic, a map has open borders, unless --border says
-otherwise; beds of grains are periodic.
+otherwise; beds of grains are periodic. With --coarse-fraction the height-map model has sand of two sizes, which it sorts.
+Ripples of the height-map model are as flat as nature's and stop growing where --wavelength-law says.
 
 Written to DIR: elevation_SSSS.tif every --map-every-s, ripples.csv and ripples.svg (wavelength, height, slopes, speed in
 time), sections.svg (the bed along the wind at several times), map.png (the bed at the end).)";
+
+constexpr double natural_doubling_slope = 4 * M_PI / 180;  ///< makes ripples of index 15 to 20
+constexpr double final_diameters = 250;                    ///< wavelength at which ripples stop growing
+constexpr double noisy_share = 0.1;  ///< of the cells that draw the noise of single grains in a step
 
 struct Options {
   std::string bed;
@@ -43,6 +48,9 @@ struct Options {
   double grain_diameter_mm = 0.25;
   double map_every = 60;
   std::string model = "height_map";
+  std::string wavelength_law = "constant";
+  double coarse_fraction = 0;
+  double coarse_diameter_mm = 0.6;
   std::optional<Border> border;
   std::uint64_t seed = 1;
   std::string out;
@@ -77,12 +85,25 @@ HeightMap starting_bed(const Options& options, const Grain& grain) {
 }
 
 std::unique_ptr<BedModel> model_of(const Options& options) {
+  if (options.model != "height_map" && options.coarse_fraction > 0)
+    throw Error("--coarse-fraction: the model " + options.model + " has one size, must be height_map");
   if (options.model != "height_map" && options.border == Border::open)
     throw Error("--border: open, must be periodic for the model " + options.model);
   if (options.model == "lattice") return std::make_unique<LatticeModel>(LatticeParameters{}, options.seed);
   if (options.model == "haff") return std::make_unique<HaffModel>(HaffModelParameters{}, options.seed);
   RippleParameters parameters;
   parameters.border = options.border.value_or(options.bed.empty() ? Border::periodic : Border::open);
+  parameters.doubling_slope = natural_doubling_slope;
+  if (options.coarse_fraction > 0) {
+    SortedRippleParameters sorted;
+    sorted.ripples = parameters;
+    sorted.coarse_fraction = options.coarse_fraction;
+    sorted.coarse_diameter = options.coarse_diameter_mm / 1000;
+    return std::make_unique<SortedRippleModel>(sorted);
+  }
+  parameters.wavelength_law = make_wavelength_law(options.wavelength_law, final_diameters);
+  parameters.stochastic_share = noisy_share;
+  parameters.seed = options.seed;
   return std::make_unique<RippleModel>(parameters);
 }
 
@@ -160,6 +181,18 @@ int run(int argc, char** argv) {
   app.add_option("--border", o.border, "periodic or open")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Border>{{"periodic", Border::periodic}, {"open", Border::open}}));
+  CLI::Option* law =
+      app.add_option("--wavelength-law", o.wavelength_law,
+                     "where ripples stop growing: none, constant (250 grain diameters) or linear in the wind")
+          ->check(CLI::IsMember({"none", "constant", "linear"}))
+          ->capture_default_str();
+  CLI::Option* coarse = app.add_option("--coarse-fraction", o.coarse_fraction, "of the sand's volume")
+                            ->check(CLI::Range(0.0, 1.0))
+                            ->excludes(law);
+  app.add_option("--coarse-diameter-mm", o.coarse_diameter_mm, "of the coarse grains")
+      ->check(CLI::Range(0.05, 20.0))
+      ->capture_default_str()
+      ->needs(coarse);
   app.add_option("--map-every-s", o.map_every, "time between maps that are written")
       ->check(CLI::Range(1.0, 1e7))
       ->capture_default_str();

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "aeolian_core/bedforms/haff_bed.hpp"
-#include "aeolian_core/bedforms/periodic_profile.hpp"
+#include "aeolian_core/bedforms/lattice/haff_bed.hpp"
+#include "aeolian_core/bedforms/theory/periodic_profile.hpp"
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
 #include "aeolian_twin/tools/theory_tables.hpp"

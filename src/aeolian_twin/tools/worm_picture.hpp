@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "aeolian_core/bedforms/independent_members.hpp"
-#include "aeolian_core/bedforms/worm_model.hpp"
+#include "aeolian_core/bedforms/theory/independent_members.hpp"
+#include "aeolian_core/bedforms/theory/worm_model.hpp"
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
 #include "aeolian_twin/tools/theory_tables.hpp"

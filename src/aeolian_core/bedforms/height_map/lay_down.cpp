@@ -1,0 +1,144 @@
+#include "aeolian_core/bedforms/height_map/lay_down.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "aeolian_core/surface/kernel.hpp"
+
+namespace aeolian {
+namespace {
+
+constexpr int stations_at_once = 32;
+
+/// Rows from the lines on both sides of each.
+AEOLIAN_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __restrict lines,
+                            double* __restrict rows) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) rows[i] = lines[i + 1] + upper * (lines[i] - lines[i + 1]);
+}
+
+AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, const double* __restrict erosion,
+                           const double* __restrict deposition, double* __restrict bed,
+                           double* __restrict activity, double* __restrict eroded,
+                           double* __restrict strongest) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double lost = erosion[i + 1] + upper * (erosion[i] - erosion[i + 1]);
+    const double gained = deposition[i];
+    bed[i] += depth * (gained - lost);
+    const double active = gained > 0 ? gained : 0;
+    activity[i] = active;
+    eroded[i] += lost;
+    strongest[i] = strongest[i] > active ? strongest[i] : active;
+  }
+}
+
+int wrapped(int i, int n) { return (i % n + n) % n; }
+
+struct Rows {
+  int begin, end;
+};
+
+/// The rows from the first to the last active patch among some stations.
+Rows hull(const ActivePatches& active, int rows, int begin, int end) {
+  Rows result{rows, 0};
+  for (int i = begin; i < end; ++i)
+    active.for_runs(i, [&](int from, int to) {
+      result.begin = std::min(result.begin, from);
+      result.end = std::max(result.end, to);
+    });
+  return result;
+}
+
+struct LayDown {
+  const WindFrame& frame;
+  const ImpactSweep& sweep;
+  const LateralSpread& spread;
+  double depth;
+  const FrameField* open;
+  const ActivePatches& active;
+  FrameField& bed;
+  FrameField& activity;
+
+  LaidDown run(int begin, int end) const;
+};
+
+LaidDown LayDown::run(int begin, int end) const {
+  LaidDown result;
+  const int n = frame.stations();
+  const int rows = frame.rows();
+  const bool periodic = frame.periodic();
+  const Rows live = hull(active, rows, begin, end);
+  if (live.begin >= live.end) return result;
+  const int from = periodic ? begin - spread.reach() : std::max(0, begin - spread.reach());
+  const int to = periodic ? end + spread.reach() : std::min(n, end + spread.reach());
+  const int first_row = std::max(0, live.begin - FrameField::pad);
+  const int last_row = std::min(rows, live.end + FrameField::pad);
+  const int count = live.end - live.begin;
+  std::vector<double> eroded(static_cast<std::size_t>(count), 0.0);
+  std::vector<double> strongest(static_cast<std::size_t>(count), 0.0);
+  const auto finish = [&](int i, const double* deposition) {
+    if (i < begin || i >= end) return;
+    const double upper = frame.place(i).upper;
+    update(count, depth, upper, sweep.erosion().at(i) + live.begin, deposition + live.begin,
+           bed.at(i) + live.begin, activity.at(i) + live.begin, eroded.data(), strongest.data());
+    bed.fill_pads(i, periodic);
+    activity.fill_pads(i, periodic);
+    if (periodic) return;
+    // The share of the outermost lines that falls beside the grid has crossed its border.
+    result.inflow += (1 - upper) * sweep.erosion().at(i)[0] + upper * sweep.erosion().at(i)[rows];
+    result.outflow += (1 - upper) * sweep.deposition().at(i)[0] + upper * sweep.deposition().at(i)[rows];
+  };
+  LateralSpread::Stream stream(spread, from, to, live.begin, live.end, open);
+  for (int i = from; i < to; ++i) {
+    const int station = wrapped(i, n);
+    scatter(last_row - first_row, frame.place(station).upper, sweep.deposition().at(station) + first_row,
+            stream.next() + first_row);
+    stream.push(finish);
+  }
+  for (const double e : eroded) result.eroded += e;
+  result.strongest = *std::max_element(strongest.begin(), strongest.end());
+  return result;
+}
+
+/// Adds the patches that are within reach of active ones.
+void widen(const WindFrame& frame, const LateralSpread& spread, ActivePatches& active) {
+  const ActivePatches before = active;
+  const int n = frame.stations();
+  for (int i = 0; i < n; ++i)
+    before.for_runs(i, [&](int begin, int end) {
+      for (int k = i - spread.reach() - 1; k <= i + spread.reach() + 1; ++k) {
+        if (!frame.periodic() && (k < 0 || k >= n)) continue;
+        active.activate_rows(wrapped(k, n), begin - spread.reach_across() - 1,
+                             end + spread.reach_across() + 1);
+        if (!frame.periodic()) continue;
+        if (begin == 0) active.activate_rows(wrapped(k, n), frame.rows() - 1, frame.rows());
+        if (end == frame.rows()) active.activate_rows(wrapped(k, n), 0, 1);
+      }
+    });
+}
+
+}  // namespace
+
+LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
+                  const FrameField* open, ActivePatches& active, FrameField& bed, FrameField& activity) {
+  if (open) widen(frame, spread, active);
+  const LayDown work{frame, sweep, spread, depth, open, active, bed, activity};
+  const int blocks = (frame.stations() + stations_at_once - 1) / stations_at_once;
+  std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
+  tbb::parallel_for(0, blocks, [&](int block) {
+    const int begin = block * stations_at_once;
+    parts[static_cast<std::size_t>(block)] =
+        work.run(begin, std::min(begin + stations_at_once, frame.stations()));
+  });
+  LaidDown result{0, sweep.inflow(), sweep.outflow(), 0};
+  for (const LaidDown& part : parts) {
+    result.eroded += part.eroded;
+    result.inflow += part.inflow;
+    result.outflow += part.outflow;
+    result.strongest = std::max(result.strongest, part.strongest);
+  }
+  return result;
+}
+
+}  // namespace aeolian
