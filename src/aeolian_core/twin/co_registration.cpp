@@ -9,8 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "aeolian_core/measure/ripple_pattern.hpp"
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/surface/text.hpp"
 #include "aeolian_core/surface/thinning.hpp"
@@ -75,19 +75,10 @@ struct Problem {
   Eigen::Matrix2d gradient;  ///< mean product of slopes
 };
 
-/// Standard deviation of the part of a layer that does not go on from cell to cell [m]: the median size of
-/// the mixed second difference (J. Immerkaer 1996, Computer Vision and Image Understanding 64, 300-302).
-double cell_noise(const GridGeometry& g, const HeightMap::Layer& z) {
-  HeightMap::Layer sizes;
-  const auto stride = static_cast<std::size_t>(g.nx());
-  const auto row = [&](std::size_t i) { return z[i - 1] - 2 * z[i] + z[i + 1]; };
-  for (int y = 1; y + 1 < g.ny(); ++y)
-    for (int x = 1; x + 1 < g.nx(); ++x) {
-      const std::size_t i = g.index(x, y);
-      const float d = row(i - stride) - 2 * row(i) + row(i + stride);
-      if (std::isfinite(d)) sizes.push_back(std::abs(d));
-    }
-  return sizes.empty() ? 0 : sigma_per_median / 6 * static_cast<double>(median(std::move(sizes)));
+/// cell_noise, or nothing where it cannot be told.
+double known_noise(const HeightMap& map) {
+  const double noise = cell_noise(map.geometry(), map.layer(layer::elevation));
+  return std::isfinite(noise) ? noise : 0;
 }
 
 HeightMap averaged(const HeightMap& map, int factor) {
@@ -243,9 +234,8 @@ CoRegistered co_register(const HeightMap& a, const HeightMap& b, CoRegistration 
     const HeightMap::Layer* ground = stable != nullptr ? &coarse_b.layer("stable") : nullptr;
     const double cell = coarse_b.geometry().cell();
     // Slopes that noise alone makes of the mean of two maps.
-    const double noise_slope = std::hypot(cell_noise(coarse_a.geometry(), coarse_a.layer(layer::elevation)),
-                                          cell_noise(coarse_b.geometry(), coarse_b.layer(layer::elevation))) /
-                               (std::sqrt(8.0) * cell);
+    const double noise_slope =
+        std::hypot(known_noise(coarse_a), known_noise(coarse_b)) / (std::sqrt(8.0) * cell);
     bool settled = false;
     for (int step = 0; step < most_steps && !settled; ++step) {
       const Problem problem = problem_at(coarse_a, coarse_b, ground, motion);
