@@ -42,7 +42,9 @@ WindField wind(double air_density) {
 /// What a forecast must be that comes from this state.
 HeightMap::Layer expected(const SaltationState& state) {
   const Grain grain;
-  RippleModel model(RippleParameters{});
+  RippleParameters parameters;
+  parameters.wavelength_law = make_wavelength_law("constant", 250);
+  RippleModel model(parameters);
   const Forcing forcing = make_forcing(state, wind(1.225).direction, grain, MeanSplash{});
   return make_forecasts(ripples(), mean_forcing({forcing}, {1}), {horizon}, model)[0].map.layer(
       layer::elevation);
