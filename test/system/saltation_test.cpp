@@ -90,8 +90,7 @@ TEST(SaltationTest, too_weak_a_wind_is_a_result) {
 }
 
 TEST(SaltationTest, the_shipped_table_is_that_of_the_default_splash) {
-  const SaltationTable table =
-      SaltationTable::read(AEOLIAN_REPOSITORY "/config/saltation/quartz_in_air.csv");
+  const SaltationTable table = SaltationTable::read(AEOLIAN_REPOSITORY "/config/saltation/quartz_in_air.csv");
   EXPECT_LE(table.error(), 0.02);
   EXPECT_NEAR(table.state(0.4, 0.00025).mass_flux, 0.0346, 0.0007);
   EXPECT_NEAR(table.state(0.4, 0.00025).impact_angle_spread * 180 / M_PI, 8.45, 0.5);
