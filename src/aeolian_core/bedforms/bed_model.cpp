@@ -91,4 +91,13 @@ Forcing mean_forcing(const std::vector<Forcing>& forcings, const std::vector<dou
   return mean;
 }
 
+TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
+                       const std::vector<double>& after) {
+  TileMask result(g);
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x)
+      if (before[g.index(x, y)] != after[g.index(x, y)]) result.activate(x, y);
+  return result;
+}
+
 }  // namespace aeolian

@@ -53,6 +53,10 @@ struct BedChange {
   VolumeBalance volume;
 };
 
+/// Tiles in which a height differs; both have a value for each cell.
+TileMask changed_tiles(const GridGeometry& geometry, const std::vector<double>& before,
+                       const std::vector<double>& after);
+
 /// One interface for every model that changes the surface.
 class BedModel {
  public:

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -33,8 +34,6 @@ AEOLIAN_KERNEL void relief(std::ptrdiff_t count, const double* __restrict bed, c
   low = *std::min_element(least, least + lanes);
   high = *std::max_element(most, most + lanes);
 }
-
-int modulo(int i, int n) { return (i % n + n) % n; }
 
 double blur_along(const WindFrame& frame) {
   const double tangent = frame.drift();
@@ -67,7 +66,7 @@ void ImpactSweep::close_period() {
   const int moved = frame_.place(last + 1).offset - frame_.place(last).offset;
   for (int q = 0; q < frame_.rows(); ++q) {
     const auto i = static_cast<std::size_t>(q);
-    deposition_.at(last)[modulo(q - moved, frame_.rows())] += seam_out_[i] - seam_in_[i];
+    deposition_.at(last)[wrapped(q - moved, frame_.rows())] += seam_out_[i] - seam_in_[i];
   }
   for (int station = 0; station <= last; ++station) {
     erosion_.at(station)[frame_.rows()] = erosion_.at(station)[0];

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -32,8 +33,6 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, con
     strongest[i] = strongest[i] > active ? strongest[i] : active;
   }
 }
-
-int wrapped(int i, int n) { return (i % n + n) % n; }
 
 struct Rows {
   int begin, end;

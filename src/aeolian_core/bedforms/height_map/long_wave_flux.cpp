@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -49,8 +50,6 @@ AEOLIAN_KERNEL void limit(std::ptrdiff_t count, const double* __restrict bed, co
   }
 }
 
-int modulo(int i, int n) { return (i % n + n) % n; }
-
 /// Half the width of the running means that together smooth with a standard deviation, all in cells.
 double half_width(double deviation) { return (std::sqrt(12.0 / means * deviation * deviation + 1) - 1) / 2; }
 
@@ -89,7 +88,7 @@ void LongWaveFlux::smooth_across() {
       std::copy(row, row + n, sums);
       double sum = 0;
       for (int i = -half; i <= half; ++i)
-        if (periodic || (i >= 0 && i < n)) sum += sums[modulo(i, n)];
+        if (periodic || (i >= 0 && i < n)) sum += sums[wrapped(i, n)];
       for (int i = 0; i < n; ++i) {
         const int count = periodic ? 2 * half + 1 : std::min(i + half, n - 1) - std::max(i - half, 0) + 1;
         row[i] = sum / count;
@@ -120,7 +119,7 @@ void LongWaveFlux::smooth_along() {
       const FrameField& from = pass % 2 == 0 ? smooth_ : sums_;
       FrameField& to = pass % 2 == 0 ? sums_ : smooth_;
       const auto at = [&](int station) {
-        return periodic || (station >= 0 && station < n) ? from.at(modulo(station, n)) + begin
+        return periodic || (station >= 0 && station < n) ? from.at(wrapped(station, n)) + begin
                                                          : nothing.data();
       };
       sum = nothing;

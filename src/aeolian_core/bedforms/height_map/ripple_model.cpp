@@ -18,15 +18,6 @@ void require(bool allowed, const char* name, double value, const char* range) {
     throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
 }
 
-TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
-                       const std::vector<double>& after) {
-  TileMask result(g);
-  for (int y = 0; y < g.ny(); ++y)
-    for (int x = 0; x < g.nx(); ++x)
-      if (before[g.index(x, y)] != after[g.index(x, y)]) result.activate(x, y);
-  return result;
-}
-
 /// Writes heights into the known cells of a layer of floats. What rounding takes from a cell is given to the
 /// next known one, so that the layer's sum is right to the rounding of one cell.
 void store(const std::vector<double>& height, HeightMap::Layer& layer) {

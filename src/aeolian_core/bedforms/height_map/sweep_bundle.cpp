@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -78,8 +79,6 @@ LineRange lines_on_grid(const WindFrame& frame, int station) {
   const int offset = frame.place(std::clamp(station, 0, frame.stations() - 1)).offset;
   return {-offset, frame.rows() + 1 - offset};
 }
-
-int modulo(int i, int n) { return (i % n + n) % n; }
 
 class Bundle {
  public:
@@ -158,7 +157,7 @@ class Bundle {
     std::vector<char> busy(at(end - task_.first), 0);
     for (int station = task_.first; station < end; ++station) {
       if (!set_live(station)) continue;
-      const int where = frame_.periodic() ? modulo(station, frame_.stations())
+      const int where = frame_.periodic() ? wrapped(station, frame_.stations())
                                           : std::clamp(station, 0, frame_.stations() - 1);
       char& any = busy[index(station)];
       for_stretches(station, live_.begin, live_.end, [&](int begin, int last, int q) {
@@ -192,7 +191,7 @@ class Bundle {
     }
     const int rows = frame_.rows();
     while (begin < end) {
-      const int q = modulo(begin_ + begin + offset, rows);
+      const int q = wrapped(begin_ + begin + offset, rows);
       const int count = std::min(end - begin, rows - q);
       work(begin, begin + count, q);
       begin += count;
@@ -214,7 +213,7 @@ class Bundle {
       return;
     }
     const double upper = frame_.place(station).upper;
-    const int where = modulo(station, frame_.stations());
+    const int where = wrapped(station, frame_.stations());
     for_stretches(station, live_.begin, live_.end, [&](int begin, int end, int q) {
       const double* const bed = task_.bed.at(where) + q;
       const double* const dune = task_.dune.at(where) + q;
@@ -350,9 +349,9 @@ class Bundle {
       for (int line = 0; line < end_ - begin_; ++line) {
         const int q = begin_ + line + frame_.place(station == 0 ? 0 : last + 1).offset;
         if (station == 0)
-          task_.seam_in[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_in(line);
+          task_.seam_in[at(wrapped(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_in(line);
         if (station == last)
-          task_.seam_out[at(modulo(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_out(line);
+          task_.seam_out[at(wrapped(q, frame_.rows()))] += stage_weight[at(s)] * stage.flux_out(line);
       }
       return;
     }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -31,8 +32,6 @@ struct Overlap {
     }
   }
 };
-
-int wrap(int i, int n) { return ((i % n) + n) % n; }
 
 }  // namespace
 
@@ -77,7 +76,7 @@ HeightMap::Layer LatticeBed::elevation(const GridGeometry& geometry) const {
     std::fill(rows.begin(), rows.end(), 0.0);
     const auto& weight_y = along_y.weight[static_cast<std::size_t>(cy)];
     for (std::size_t k = 0; k < weight_y.size(); ++k) {
-      const int y = wrap(along_y.first[static_cast<std::size_t>(cy)] + static_cast<int>(k), ny_);
+      const int y = wrapped(along_y.first[static_cast<std::size_t>(cy)] + static_cast<int>(k), ny_);
       const std::int16_t* row = &height_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_)];
       for (std::size_t x = 0; x < rows.size(); ++x) rows[x] += weight_y[k] * row[x];
     }
@@ -85,7 +84,7 @@ HeightMap::Layer LatticeBed::elevation(const GridGeometry& geometry) const {
       const auto& weight_x = along_x.weight[static_cast<std::size_t>(cx)];
       double sum = 0;
       for (std::size_t k = 0; k < weight_x.size(); ++k)
-        sum += weight_x[k] * rows[static_cast<std::size_t>(wrap(
+        sum += weight_x[k] * rows[static_cast<std::size_t>(wrapped(
                                  along_x.first[static_cast<std::size_t>(cx)] + static_cast<int>(k), nx_))];
       result[geometry.index(cx, cy)] = static_cast<float>(sum * layer_);
     }

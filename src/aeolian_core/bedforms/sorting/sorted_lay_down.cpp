@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -50,8 +51,6 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, const Step& given, const double
     strongest[i] = strongest[i] > active ? strongest[i] : active;
   }
 }
-
-int wrapped(int i, int n) { return (i % n + n) % n; }
 
 double sum(const std::vector<double>& values) {
   double total = 0;

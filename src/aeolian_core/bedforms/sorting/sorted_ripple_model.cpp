@@ -22,15 +22,6 @@ void require(bool allowed, const char* name, double value, const char* range) {
                 range);
 }
 
-TileMask changed_tiles(const GridGeometry& g, const std::vector<double>& before,
-                       const std::vector<double>& after) {
-  TileMask result(g);
-  for (int y = 0; y < g.ny(); ++y)
-    for (int x = 0; x < g.nx(); ++x)
-      if (before[g.index(x, y)] != after[g.index(x, y)]) result.activate(x, y);
-  return result;
-}
-
 bool same_bits(const HeightMap::Layer& a, const HeightMap::Layer& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -83,8 +84,6 @@ AEOLIAN_KERNEL void widen(std::ptrdiff_t count, const double* __restrict bed, co
     high[i] = h > high[i] ? h : high[i];
   }
 }
-
-int modulo(int i, int n) { return (i % n + n) % n; }
 
 }  // namespace
 
@@ -187,7 +186,7 @@ class SortedSweep::Bundle {
     }
     const int rows = frame_.rows();
     while (begin < end) {
-      const int q = modulo(begin_ + begin + offset, rows);
+      const int q = wrapped(begin_ + begin + offset, rows);
       const int count = std::min(end - begin, rows - q);
       work(begin, begin + count, q);
       begin += count;
@@ -206,7 +205,7 @@ class SortedSweep::Bundle {
       return;
     }
     const double upper = frame_.place(station).upper;
-    const int where = modulo(station, frame_.stations());
+    const int where = wrapped(station, frame_.stations());
     for_stretches(station, live_.begin, live_.end, [&](int begin, int end, int q) {
       gather(end - begin, upper, task_.bed.at(where) + q, task_.dune.at(where) + q, h + begin);
       blend(end - begin, upper, task_.fraction.at(where) + q, f + begin);
@@ -266,7 +265,7 @@ class SortedSweep::Bundle {
       const auto goes = [&](int line) { book(balance_.outflow, stage.flux_out(size, line)); };
       if (frame_.periodic()) {
         for (int line = 0; line < end_ - begin_; ++line) {
-          const auto seam = [&](int offset) { return at(modulo(begin_ + line + offset, frame_.rows())); };
+          const auto seam = [&](int offset) { return at(wrapped(begin_ + line + offset, frame_.rows())); };
           if (station == 0)
             sweep_.seam_in_[at(size)][seam(frame_.place(0).offset)] +=
                 stage_weight[at(s)] * stage.flux_in(size, line);
@@ -328,7 +327,7 @@ void SortedSweep::close_period() {
   for (std::size_t s = 0; s < sizes; ++s) {
     for (int q = 0; q < frame_.rows(); ++q) {
       const auto i = static_cast<std::size_t>(q);
-      deposition_[s].at(last)[modulo(q - moved, frame_.rows())] += seam_out_[s][i] - seam_in_[s][i];
+      deposition_[s].at(last)[wrapped(q - moved, frame_.rows())] += seam_out_[s][i] - seam_in_[s][i];
     }
     for (int station = 0; station <= last; ++station)
       for (FrameField* field : {&struck_[s], &deposition_[s]})
