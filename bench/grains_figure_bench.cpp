@@ -3,9 +3,9 @@
 //
 //     catkin_ws/devel/lib/aeolian_twin/grains_figure_bench docs/accuracy
 
-#include <cstdio>
 #include <sstream>
 
+#include "draw_figures.hpp"
 #include "grains_convergence.hpp"
 #include <fmt/format.h>
 
@@ -65,15 +65,8 @@ void draw_stiffness(const std::string& path) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  // Among all benchmarks, without a path, there is nothing to do.
-  if (argc < 2) return 0;
-  try {
-    const std::string folder = argv[1];
+  return aeolian::draw_figures("grains_figure_bench", argc, argv, [](const std::string& folder) {
     aeolian::draw_steps(folder + "/grains_step.svg");
     aeolian::draw_stiffness(folder + "/grains_stiffness.svg");
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "grains_figure_bench: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <sstream>
 #include <utility>
 
+#include "draw_figures.hpp"
 #include "saltation_convergence.hpp"
 #include "saltation_grid.hpp"
 
@@ -96,15 +96,8 @@ void draw_grids(const std::string& path) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  // Among all benchmarks, without a path, there is nothing to do.
-  if (argc < 2) return 0;
-  try {
-    const std::string folder = argv[1];
+  return aeolian::draw_figures("saltation_figure_bench", argc, argv, [](const std::string& folder) {
     aeolian::draw_time(folder + "/saltation_time.svg");
     aeolian::draw_grids(folder + "/saltation_grid.svg");
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "saltation_figure_bench: %s\n", error.what());
-    return 1;
-  }
+  });
 }

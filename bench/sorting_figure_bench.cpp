@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "../test/aeolian_core/bedforms/sorting/sorted_experiments.hpp"
+#include "draw_figures.hpp"
 #include <fmt/format.h>
 
 #include "aeolian_core/twin/gnuplot.hpp"
@@ -98,13 +98,7 @@ void draw_section(const std::string& path) {
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
-  // Among all benchmarks, without a path, there is nothing to do.
-  if (argc < 2) return 0;
-  try {
-    aeolian::draw_section(std::string(argv[1]) + "/sorting_section.svg");
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "sorting_figure_bench: %s\n", error.what());
-    return 1;
-  }
+  return aeolian::draw_figures("sorting_figure_bench", argc, argv, [](const std::string& folder) {
+    aeolian::draw_section(folder + "/sorting_section.svg");
+  });
 }
