@@ -65,8 +65,10 @@ ValueRange display_range(const HeightMap::Layer& values, Palette palette) {
   };
   const ValueRange range{percentile(0.02), percentile(0.98)};
   if (palette != Palette::diverging) return range;
-  const double bound = std::max(std::abs(range.low), std::abs(range.high));
-  return {-bound, bound};
+  double bound = std::max(std::abs(range.low), std::abs(range.high));
+  if (bound == 0)
+    for (const float v : known) bound = std::max(bound, std::abs(static_cast<double>(v)));
+  return {0 - bound, bound};
 }
 
 std::vector<float> hill_shade(const GridGeometry& geometry, const HeightMap::Layer& elevation,

@@ -27,7 +27,8 @@ Rgb colour(Palette palette, double value);
 constexpr float flat_light = 0.70710678F;
 
 /// The range that a picture of a layer should show: the 2nd to 98th percentile of the known cells; for the
-/// diverging palette symmetric about zero. (0, 0) when nothing is known.
+/// diverging palette symmetric about zero, of values that are mostly zero up to the largest. (0, 0) when
+/// nothing is known.
 struct ValueRange {
   double low = 0;
   double high = 0;

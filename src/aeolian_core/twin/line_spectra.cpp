@@ -136,7 +136,9 @@ Figure LineCorrelation::jackknifed(const std::function<std::optional<double>(con
   double sum = 0;
   double squares = 0;
   for (const Curve& curve : without_) {
-    const double off = estimate(curve).value_or(NAN) - *value;
+    const auto without = estimate(curve);
+    if (!without) return {NAN, NAN};
+    const double off = *without - *value;
     sum += off;
     squares += off * off;
   }

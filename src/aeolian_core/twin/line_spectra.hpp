@@ -46,7 +46,7 @@ class LineCorrelation {
   const Curve& curve() const { return curve_; }
   /// What `estimate` [samples] makes of the curve, with its standard error: the delete-a-group jackknife over
   /// eight parts of the map, strips along the wind or, of less than 16 lines, stretches of them (Efron &
-  /// Stein 1981, Ann. Stat. 9, 586-596). NaN for what cannot be had.
+  /// Stein 1981, Ann. Stat. 9, 586-596). NaN unless it can be had of all parts together and without each.
   Figure jackknifed(const std::function<std::optional<double>(const Curve&)>& estimate) const;
 
  private:

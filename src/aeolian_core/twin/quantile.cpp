@@ -189,7 +189,7 @@ double quantile_of(const std::vector<float>& values, std::size_t known, double s
 
 double quantile_of_distances(const std::vector<float>& values, std::size_t known, double share,
                              double centre) {
-  return quantile_of(values, known, share, Ranked{centre, -1});
+  return std::abs(quantile_of(values, known, share, Ranked{centre, -1}));  // no zero with a sign
 }
 
 }  // namespace aeolian

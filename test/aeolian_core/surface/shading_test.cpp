@@ -85,6 +85,15 @@ TEST(DisplayRange, IsSymmetricForTheDivergingPalette) {
   EXPECT_EQ(range.high, 5);
 }
 
+TEST(DisplayRange, ShowsTheFewValuesThatAreNotZero) {
+  HeightMap::Layer values(1000, 0.0F);
+  values[3] = -0.4F;
+  const ValueRange range = display_range(values, Palette::diverging);
+  EXPECT_FLOAT_EQ(static_cast<float>(range.high), 0.4F);
+  EXPECT_FLOAT_EQ(static_cast<float>(range.low), -0.4F);
+  EXPECT_FALSE(std::signbit(display_range({0, 0}, Palette::diverging).low));
+}
+
 TEST(DisplayRange, OfNothingIsZero) {
   for (const Palette palette : {Palette::sand, Palette::diverging}) {
     EXPECT_EQ(display_range({nan, nan}, palette).low, 0);

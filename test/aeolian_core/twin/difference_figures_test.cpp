@@ -34,6 +34,15 @@ TEST(DifferenceFiguresTest, le90_of_centred_normal_noise_is_1_6449_sigma) {
   EXPECT_LT(f.le90.sigma, 0.01 * f.le90.value);
 }
 
+TEST(DifferenceFiguresTest, a_median_of_nothing_but_zeros_has_no_sign) {
+  HeightMap::Layer d(plot.size(), 0.0F);
+  for (std::size_t i = 0; i < 1000; ++i) d[97 * i] = -0.3F;
+  const DifferenceFigures f = difference_figures(plot, d);
+  EXPECT_EQ(f.nmad.value, 0);
+  EXPECT_FALSE(std::signbit(f.nmad.value));
+  EXPECT_FALSE(std::signbit(f.le90.value));
+}
+
 TEST(DifferenceFiguresTest, figures_of_heavy_tails_follow_the_laplace_law) {
   RandomStream random(3, 0);
   HeightMap::Layer d(plot.size());
