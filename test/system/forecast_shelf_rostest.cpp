@@ -148,7 +148,8 @@ TEST_F(ForecastShelfTest, SaysWhatItRefusesAndKeepsWhatItHas) {
   send(forecast_, flat(1, 60), 4060, "odom");
   EXPECT_TRUE(diagnostics.warns("forecast_shelf", "/forecast: frame is 'odom', must be 'map'"));
   send(forecast_, flat(1, 60), 10);
-  EXPECT_TRUE(diagnostics.warns("forecast_shelf", "forecast"));
+  EXPECT_TRUE(diagnostics.warns("forecast_shelf",
+                                "/forecast: stamp is 10 s, must be at least the lead time of 60 s"));
 
   Listener<GridMap> shown(nh_, "chosen_forecast");
   EXPECT_TRUE(wait_until([&] { return value(shown) == 60; }));

@@ -75,13 +75,16 @@ class ForecastShelf : public Node {
     try {
       require_frame(forecast_subscriber_.getTopic(), message->info.header);
       const double lead = lead_time_of(*message, forecast_subscriber_.getTopic());
+      if (message->info.header.stamp.toSec() < lead)
+        throw Error(fmt::format("{}: stamp is {} s, must be at least the lead time of {} s",
+                                forecast_subscriber_.getTopic(), message->info.header.stamp.toSec(), lead));
       const ros::Time begin = message->info.header.stamp - ros::Duration(lead);
       if (!shelf_.put(to_stamp(begin), lead, message, to_stamp(ros::Time::now()))) return;
       good("forecast", fmt::format("{} horizons", shelf_.entries().size()));
       follow_measured();
       tell_horizons();
       if (chosen_forecast() == message) show_forecast();
-    } catch (const std::exception& error) {  // ROS throws its own when a time is below zero
+    } catch (const Error& error) {
       bad("forecast", error.what());
     }
   }
