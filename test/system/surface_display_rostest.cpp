@@ -150,7 +150,7 @@ TEST_F(SurfaceDisplayTest, TheTitleSaysThatNoValuesAreGiven) {
   const auto& markers = meshes.messages.back()->markers;
   EXPECT_EQ(markers[0].ns, "surface");
   EXPECT_EQ(markers[0].action, visualization_msgs::Marker::DELETE);
-  EXPECT_EQ(markers[1].text, "Uncertainty: none given (no layer 'spread')");
+  EXPECT_EQ(markers[1].text, "Uncertainty: no layer 'spread'");
   EXPECT_TRUE(std::isfinite(markers[1].pose.position.z));
 
   HeightMap map = slope();

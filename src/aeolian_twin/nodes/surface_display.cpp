@@ -127,9 +127,9 @@ class SurfaceDisplay : public Node {
     surface.header = drawn_at_once();
     surface.ns = "surface";
     surface.action = visualization_msgs::Marker::DELETE;
-    unknown_.markers = legend(fmt::format("{}: none given (no layer '{}')", title_, values_),
-                              lowest_height(map_->layer(heights_)))
-                           .only_title();
+    unknown_.markers =
+        legend(fmt::format("{}: no layer '{}'", title_, values_), lowest_height(map_->layer(heights_)))
+            .only_title();
     unknown_.markers.insert(unknown_.markers.begin(), surface);
     return unknown_;
   }
