@@ -94,8 +94,12 @@ HeightMap ripples(double height) {
 
 TEST_F(SurfaceDisplayTest, FindsCrestsWhileSomebodyLooksAndTheMapChanges) {
   EXPECT_EQ(wind_.getNumSubscribers(), 0U) << "nobody looks at crests";
+  Listener<visualization_msgs::MarkerArray> meshes(nh_, "mesh");
+  ASSERT_TRUE(wait_until([&] { return meshes.connected(); }));
   send(whole_, ripples(0.01), 200);
-  wait_until([] { return false; }, 0.3);
+  ASSERT_TRUE(wait_until([&] {
+    return !meshes.messages.empty() && meshes.messages.back()->markers[0].points.size() == 6U * 199 * 99;
+  }));
   {
     Listener<visualization_msgs::Marker> crests(nh_, "crests");
     ASSERT_TRUE(wait_until([&] { return crests.messages.size() == 1; }));
