@@ -507,7 +507,7 @@ TEST(Programs, RefuseABadParameterInOneLine) {
       {"comparator _max_maps:=1",
        "comparator: /bad/max_maps: 1 is not allowed, must be a whole number from 2 to 1000\n"},
       {"surface_display _palette:=grey",
-       "surface_display: /bad/palette: 'grey' is not allowed, must be one of sand, diverging\n"},
+       "surface_display: /bad/palette: 'grey' is not allowed, must be one of sand, diverging, viridis\n"},
   };
   for (const auto& [command, line] : cases) {
     const Outcome outcome = run_program(command + " __name:=bad");

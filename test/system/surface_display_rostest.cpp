@@ -1,8 +1,11 @@
 /// surface_display as a program: what it draws of whole maps and parts, and when it draws nothing.
+#include <cmath>
+
 #include "ros_test.hpp"
 #include <grid_map_msgs/GridMap.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "aeolian_core/surface/submap.hpp"
@@ -44,6 +47,7 @@ class SurfaceDisplayTest : public ::testing::Test {
 
   ros::NodeHandle nh_;
   ros::Publisher whole_ = nh_.advertise<grid_map_msgs::GridMap>("map", 10);
+  ros::Publisher wind_ = nh_.advertise<grid_map_msgs::GridMap>("wind_field", 10);
   ros::Publisher updates_ = nh_.advertise<grid_map_msgs::GridMap>("map_updates", 100);
 };
 
@@ -59,8 +63,8 @@ TEST_F(SurfaceDisplayTest, OneWhoStartsToLookGetsTheLastPictureAndThenWhatChange
   EXPECT_EQ(clouds.messages[0]->width, grid.size());
   EXPECT_GT(z_of(*clouds.messages[0], 31, 31), 0.5F);
   EXPECT_LT(z_of(*clouds.messages[0], 32, 31), 0.5F);
-  ASSERT_EQ(meshes.messages[0]->markers.size(), 2U);
-  EXPECT_EQ(meshes.messages[0]->markers[1].text.find("Measured, dark "), 0U);
+  ASSERT_EQ(meshes.messages[0]->markers.size(), 6U) << "surface, title, bar, three values";
+  EXPECT_EQ(meshes.messages[0]->markers[1].text, "Measured");
 
   send(whole_, slope(0.5F), 3);
   ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 2 && meshes.messages.size() == 2; }));
@@ -79,6 +83,57 @@ TEST_F(SurfaceDisplayTest, OneWhoStartsToLookGetsTheLastPictureAndThenWhatChange
   EXPECT_LT(z_of(*clouds.messages[2], 31, 63), 0.5F);
 }
 
+/// Ripples 10 cm long of some height, crests from south to north.
+HeightMap ripples(double height) {
+  HeightMap map(GridGeometry(0, 0, 0.005, 200, 100));
+  HeightMap::Layer& elevation = map.add(layer::elevation);
+  for (std::size_t i = 0; i < elevation.size(); ++i)
+    elevation[i] = static_cast<float>(height / 2 * std::sin(2 * M_PI * map.geometry().cell_at(i).x / 20));
+  return map;
+}
+
+TEST_F(SurfaceDisplayTest, FindsCrestsWhileSomebodyLooksAndTheMapChanges) {
+  EXPECT_EQ(wind_.getNumSubscribers(), 0U) << "nobody looks at crests";
+  Listener<visualization_msgs::MarkerArray> meshes(nh_, "mesh");
+  ASSERT_TRUE(wait_until([&] { return meshes.connected(); }));
+  send(whole_, ripples(0.01), 200);
+  ASSERT_TRUE(wait_until([&] {
+    return !meshes.messages.empty() && meshes.messages.back()->markers[0].points.size() == 6U * 199 * 99;
+  }));
+  {
+    Listener<visualization_msgs::Marker> crests(nh_, "crests");
+    ASSERT_TRUE(wait_until([&] { return crests.messages.size() == 1; }));
+    EXPECT_EQ(crests.messages[0]->type, visualization_msgs::Marker::LINE_LIST);
+    EXPECT_GT(crests.messages[0]->points.size(), 100U);
+    EXPECT_TRUE(wait_until([&] { return wind_.getNumSubscribers() == 1; }));
+    send(whole_, ripples(0.01), 201);
+    EXPECT_FALSE(wait_until([&] { return crests.messages.size() > 1; }, 0.3)) << "nothing has changed";
+    // Many changes, few drawings: the period is 0.2 s in this test.
+    for (int i = 0; i < 20; ++i) send(whole_, ripples(0.011 + 1e-4 * i), 202 + i);
+    ASSERT_TRUE(wait_until([&] { return crests.messages.size() > 1; }));
+    wait_until([] { return false; }, 0.6);
+    EXPECT_LE(crests.messages.size(), 6U);
+    const double highest = crests.messages.back()->points[0].z;
+    EXPECT_NEAR(highest, 3 * 0.0129, 3 * 0.0005) << "the last change is drawn";
+    // Lines go to the left of the wind: northwards in a west wind, southwards in an east wind.
+    const auto northwards = [&] {
+      const auto& points = crests.messages.back()->points;
+      return points[1].y - points[0].y;
+    };
+    EXPECT_GT(northwards(), 0);
+    WindField wind;
+    wind.friction_velocity = 0.4;
+    wind.direction = M_PI;
+    std_msgs::Header header;
+    header.frame_id = "map";
+    const std::size_t before = crests.messages.size();
+    wind_.publish(to_message(wind, grid, header));
+    ASSERT_TRUE(wait_until([&] { return crests.messages.size() > before; }));
+    EXPECT_LT(northwards(), 0);
+  }
+  EXPECT_TRUE(wait_until([&] { return wind_.getNumSubscribers() == 0; }));
+}
+
 TEST_F(SurfaceDisplayTest, SaysWhichLayerIsMissing) {
   Diagnostics diagnostics(nh_);
   Listener<PointCloud2> clouds(nh_, "cloud");
@@ -89,6 +144,26 @@ TEST_F(SurfaceDisplayTest, SaysWhichLayerIsMissing) {
   EXPECT_TRUE(diagnostics.warns("surface_display", "'elevation'"));
   send(whole_, slope(), 101);
   EXPECT_TRUE(diagnostics.is_well("surface_display"));
+}
+
+TEST_F(SurfaceDisplayTest, TheTitleSaysThatNoValuesAreGiven) {
+  Listener<visualization_msgs::MarkerArray> meshes(nh_, "spread/mesh");
+  ASSERT_TRUE(wait_until([&] { return meshes.connected(); }));
+  send(whole_, slope(), 300);
+  ASSERT_TRUE(wait_until([&] { return !meshes.messages.empty(); }));
+  const auto& markers = meshes.messages.back()->markers;
+  EXPECT_EQ(markers[0].ns, "surface");
+  EXPECT_EQ(markers[0].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(markers[1].text, "Uncertainty: no layer 'spread'");
+  EXPECT_TRUE(std::isfinite(markers[1].pose.position.z));
+
+  HeightMap map = slope();
+  HeightMap::Layer& spread = map.add("spread", 0.001F);
+  spread.back() = 0.002F;
+  send(whole_, map, 301);
+  ASSERT_TRUE(wait_until([&] { return meshes.messages.back()->markers[1].text == "Uncertainty"; }));
+  EXPECT_EQ(meshes.messages.back()->markers[0].action, visualization_msgs::Marker::ADD);
+  EXPECT_FALSE(meshes.messages.back()->markers[0].points.empty());
 }
 
 }  // namespace

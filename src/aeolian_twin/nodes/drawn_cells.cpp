@@ -19,6 +19,13 @@ std::vector<Rgb> plain_colours(const HeightMap::Layer& values, const SurfaceLook
 
 }  // namespace
 
+double lowest_height(const HeightMap::Layer& heights) {
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const float z : heights)
+    if (std::isfinite(z)) lowest = std::min(lowest, z);
+  return std::isfinite(lowest) ? static_cast<double>(lowest) : 0;
+}
+
 CellRange grown(const CellRange& range, const GridGeometry& geometry) {
   return {std::max(range.x0 - 1, 0), std::min(range.x1 + 1, geometry.nx()), std::max(range.y0 - 1, 0),
           std::min(range.y1 + 1, geometry.ny())};

@@ -60,6 +60,9 @@ class DrawnCells {
   double lowest_ = std::numeric_limits<double>::quiet_NaN();  ///< nothing is drawn yet
 };
 
+/// Zero when no cell is known.
+double lowest_height(const HeightMap::Layer& heights);
+
 /// A range with one more cell on each side, as far as the grid goes.
 CellRange grown(const CellRange& range, const GridGeometry& geometry);
 

@@ -31,6 +31,7 @@ NodeDescription describe_shadow_profiler();
 NodeDescription describe_wind_estimator();
 NodeDescription describe_forecaster();
 NodeDescription describe_comparator();
+NodeDescription describe_forecast_shelf();
 NodeDescription describe_surface_display();
 
 /// All of them.

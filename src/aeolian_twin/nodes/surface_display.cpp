@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -10,13 +11,25 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/wind/direction.hpp"
+#include "aeolian_twin/nodes/crest_publisher.hpp"
+#include "aeolian_twin/nodes/drawn_crests.hpp"
 #include "aeolian_twin/nodes/drawn_surface.hpp"
+#include "aeolian_twin/nodes/lead_time_words.hpp"
+#include "aeolian_twin/nodes/map_legend.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
+namespace {
 
-/// Any grid map as a coloured point cloud and a shaded mesh for a stock rviz. Only what has changed is drawn
+const std::map<std::string, Palette> palettes = {
+    {"sand", Palette::sand}, {"diverging", Palette::diverging}, {"viridis", Palette::viridis}};
+
+}  // namespace
+
+/// Any grid map as a coloured point cloud, a shaded mesh with title and colour bar, and the crests of its
+/// ripples, for a stock rviz. Only what has changed is drawn
 /// anew, and nothing that nobody looks at; one who starts to look gets the last picture.
 class SurfaceDisplay : public Node {
  public:
@@ -26,7 +39,7 @@ class SurfaceDisplay : public Node {
   void start() override {
     heights_ = parameters().text("layer");
     values_ = parameters().text("value_layer").empty() ? heights_ : parameters().text("value_layer");
-    look_.palette = parameters().text("palette") == "diverging" ? Palette::diverging : Palette::sand;
+    look_.palette = palettes.at(parameters().text("palette"));
     look_.range = {parameters().number("range_low"), parameters().number("range_high")};
     if (look_.range.low > look_.range.high) parameters().refuse("range_low", "at most range_high");
     chooses_range_ = look_.range.low == look_.range.high;
@@ -42,6 +55,9 @@ class SurfaceDisplay : public Node {
         "cloud", 1, [this](const Looker& to) { show([&] { to.publish(draw_cloud()); }); });
     mesh_publisher_ = nh().advertise<visualization_msgs::MarkerArray>(
         "mesh", 1, [this](const Looker& to) { show([&] { to.publish(draw_mesh()); }); });
+    crests_ = std::make_unique<CrestPublisher>(nh(), degrees_to_radians(parameters().number("direction_deg")),
+                                               parameters().number("crest_period"),
+                                               [this](double direction) { return crests(direction); });
     WantedMap wanted;
     wanted.layers = {heights_, values_, layer::lead_time};
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
@@ -70,6 +86,7 @@ class SurfaceDisplay : public Node {
     if (changed.empty()) return;
     if (cloud_publisher_.getNumSubscribers() > 0) show([this] { cloud_publisher_.publish(draw_cloud()); });
     if (mesh_publisher_.getNumSubscribers() > 0) show([this] { mesh_publisher_.publish(draw_mesh()); });
+    crests_->note_change();
   }
 
   template <class Publish>
@@ -91,14 +108,46 @@ class SurfaceDisplay : public Node {
   }
 
   const visualization_msgs::MarkerArray& draw_mesh() {
+    if (!title_.empty() && map_->has(heights_) && !map_->has(values_)) return say_unknown();
     const DrawnLayers layers = choose_look();
-    std_msgs::Header header = header_;
-    header.stamp = ros::Time();  // drawn at once
-    visualization_msgs::MarkerArray& drawn = mesh_->draw(layers, look_, not_in_mesh_, header);
+    visualization_msgs::MarkerArray& drawn = mesh_->draw(layers, look_, not_in_mesh_, drawn_at_once());
     not_in_mesh_.clear();
-    drawn.markers.resize(title_.empty() ? 1 : 2);
-    if (!title_.empty()) drawn.markers.back() = title(header);
+    drawn.markers.resize(1);
+    if (title_.empty()) return drawn;
+    for (visualization_msgs::Marker& marker :
+         legend(title_ + lead_time_in_words(), mesh_->lowest()).markers())
+      drawn.markers.push_back(std::move(marker));
     return drawn;
+  }
+
+  /// A title instead of a picture, for a layer that the map may lack as well as have.
+  const visualization_msgs::MarkerArray& say_unknown() {
+    look_.offset = offset();
+    visualization_msgs::Marker surface;
+    surface.header = drawn_at_once();
+    surface.ns = "surface";
+    surface.action = visualization_msgs::Marker::DELETE;
+    unknown_.markers =
+        legend(fmt::format("{}: no layer '{}'", title_, values_), lowest_height(map_->layer(heights_)))
+            .only_title();
+    unknown_.markers.insert(unknown_.markers.begin(), surface);
+    return unknown_;
+  }
+
+  MapLegend legend(const std::string& title, double lowest) const {
+    return {geometry_, look_, lowest, title, drawn_at_once()};
+  }
+
+  std_msgs::Header drawn_at_once() const {
+    std_msgs::Header header = header_;
+    header.stamp = ros::Time();
+    return header;
+  }
+
+  std::optional<visualization_msgs::Marker> crests(double direction) {
+    std::optional<visualization_msgs::Marker> result;
+    show([&] { result = draw_crests(choose_look(), look_, direction, drawn_at_once()); });
+    return result;
   }
 
   /// The layers to be drawn. A range that the map gives is chosen anew only when as many tiles have changed
@@ -125,37 +174,14 @@ class SurfaceDisplay : public Node {
     return result;
   }
 
-  /// The title with the lead time of a forecast and what the first and last colour mean, in millimetres or
-  /// metres.
-  visualization_msgs::Marker title(const std_msgs::Header& header) const {
-    std::string text = title_;
-    if (map_->has(layer::lead_time)) {
-      const HeightMap::Layer& lead = map_->layer(layer::lead_time);
-      const auto known = std::find_if(lead.begin(), lead.end(), [](float t) { return std::isfinite(t); });
-      if (known != lead.end()) text += fmt::format(" {:.0f} s ahead", *known);
-    }
-    const ValueRange& shown = look_.range;
-    const bool small = std::max(std::abs(shown.low), std::abs(shown.high)) < 0.5;
-    const double unit = small ? 1e-3 : 1;
-    const bool diverging = look_.palette == Palette::diverging;
-    text += fmt::format(", {} {:.1f} to {} {:.1f} {}", diverging ? "blue" : "dark", shown.low / unit,
-                        diverging ? "red" : "bright", shown.high / unit, small ? "mm" : "m");
-
-    visualization_msgs::Marker marker;
-    marker.header = header;
-    marker.ns = "title";
-    marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-    marker.action = visualization_msgs::Marker::ADD;
-    marker.text = text;
-    marker.scale.z = 0.05 * geometry_.length_x();
-    marker.pose.position.x = geometry_.origin_x() + geometry_.length_x() / 2 + look_.offset[0];
-    marker.pose.position.y =
-        geometry_.origin_y() + geometry_.length_y() + 0.9 * marker.scale.z + look_.offset[1];
-    marker.pose.position.z = mesh_->lowest() + look_.offset[2];
-    marker.pose.orientation.w = 1;
-    marker.color.r = marker.color.g = marker.color.b = 0.15F;
-    marker.color.a = 1;
-    return marker;
+  /// ", 2 min ahead" of a forecast, else nothing.
+  std::string lead_time_in_words() const {
+    if (!map_->has(layer::lead_time)) return "";
+    const HeightMap::Layer& lead = map_->layer(layer::lead_time);
+    const auto known = std::find_if(lead.begin(), lead.end(), [](float t) { return std::isfinite(t); });
+    if (known == lead.end()) return "";
+    const std::string words = ", " + lead_time_words(static_cast<double>(*known));
+    return *known > 0 ? words + " ahead" : words;
   }
 
   std::string heights_;
@@ -175,33 +201,47 @@ class SurfaceDisplay : public Node {
   std::optional<DrawnMesh> mesh_;
   ros::Publisher cloud_publisher_;
   ros::Publisher mesh_publisher_;
+  visualization_msgs::MarkerArray unknown_;
+  std::unique_ptr<CrestPublisher> crests_;
   std::unique_ptr<MapReceiver> receiver_;
 };
 
 NodeDescription describe_surface_display() {
-  return {"surface_display",
-          "shows any grid map in a stock rviz",
-          {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed"},
-          {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
-           "mesh (visualization_msgs/MarkerArray): shaded surface and title"},
-          {
-              frame_parameter(),
-              {"layer", layer::elevation, "", "drawn as height"},
-              {"value_layer", std::string(), "", "drawn as colour; empty: the layer of the heights"},
-              {"palette", std::string("sand"), "", "of the colours", Limits::any(), {"sand", "diverging"}},
-              {"range_low", 0.0, "m", "value of the first colour; equal to range_high: chosen from the map",
-               Limits::any()},
-              {"range_high", 0.0, "m", "value of the last colour", Limits::any()},
-              {"shaded", true, "", "slopes are darker or brighter, as under a lamp in the north-west"},
-              {"exaggeration", 3.0, "", "factor on the heights as drawn", Limits::positive()},
-              {"offset", std::vector<double>{0, 0, 0}, "map lengths, map lengths, m",
-               "drawn so far beside its place", Limits::any()},
-              {"centred", false, "",
-               "drawn with its centre at the frame's origin, for maps with large coordinates"},
-              {"max_mesh_cells", 60000.0, "", "a larger map is drawn with coarser cells", Limits::positive()},
-              {"title", std::string(), "", "text above the mesh; empty: none"},
-          },
-          [] { return std::make_shared<SurfaceDisplay>(); }};
+  return {
+      "surface_display",
+      "shows any grid map in a stock rviz",
+      {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed",
+       "wind_field (grid_map_msgs/GridMap): while somebody looks at crests, which lie across it"},
+      {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
+       "mesh (visualization_msgs/MarkerArray): shaded surface, title, colour bar",
+       "crests (visualization_msgs/Marker): lines along the crests of ripples"},
+      {
+          frame_parameter(),
+          {"layer", layer::elevation, "", "drawn as height"},
+          {"value_layer", std::string(), "", "drawn as colour; empty: the layer of the heights"},
+          {"palette",
+           std::string("sand"),
+           "",
+           "of the colours",
+           Limits::any(),
+           {"sand", "diverging", "viridis"}},
+          {"range_low", 0.0, "m", "value of the first colour; equal to range_high: chosen from the map",
+           Limits::any()},
+          {"range_high", 0.0, "m", "value of the last colour", Limits::any()},
+          {"shaded", true, "", "slopes are darker or brighter, as under a lamp in the north-west"},
+          {"exaggeration", 3.0, "", "factor on the heights as drawn", Limits::positive()},
+          {"offset", std::vector<double>{0, 0, 0}, "map lengths, map lengths, m",
+           "drawn so far beside its place", Limits::any()},
+          {"centred", false, "",
+           "drawn with its centre at the frame's origin, for maps with large coordinates"},
+          {"max_mesh_cells", 60000.0, "", "a larger map is drawn with coarser cells", Limits::positive()},
+          {"title", std::string(), "", "text above the mesh, which then has a colour bar; empty: neither"},
+          {"crest_period", 1.0, "s", "least time between drawings of the crests", Limits::not_negative()},
+          {"direction_deg", 0.0, "degrees",
+           "where the wind blows to, counter-clockwise from east, until it is known",
+           Limits::between(-360, 360)},
+      },
+      [] { return std::make_shared<SurfaceDisplay>(); }};
 }
 
 }  // namespace aeolian
