@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
+#include "aeolian_core/grains/mean_splash.hpp"
+#include "aeolian_core/saltation/saltation_source.hpp"
+#include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/uncertain_parameters.hpp"
+#include "aeolian_core/twin/wind_course.hpp"
+
+namespace aeolian {
+
+namespace layer {
+inline const std::string spread = "spread";  ///< standard deviation of a predicted elevation [m]
+}  // namespace layer
+
+/// The physics that all members share.
+struct TwinPhysics {
+  Grain grain;
+  SaltationSource saltation;
+  MeanSplash splash;
+  RippleParameters ripple;
+};
+
+/// What a member of an ensemble predicts.
+struct MemberForecast {
+  UncertainParameters parameters;
+  std::vector<HeightMap::Layer> elevation;  ///< for each horizon, on the members' grid [m]
+};
+
+struct EnsembleForecast {
+  /// For each horizon: elevation (the best single guess of the surface), spread (of the error of that guess,
+  /// noise of the measured map included), initial, lead_time; on the grid of the start.
+  std::vector<Forecast> forecasts;
+  GridGeometry member_geometry;
+  std::vector<MemberForecast> members;
+};
+
+/// Several forecasts from one measured map, which differ in what is not known: the map's own error (layer
+/// `variance`), the wind and the parameters of the model.
+///
+/// `elevation` is the run with the median parameters on the map as it is, at full resolution: a mean over
+/// members would flatten crests that they put at different places. Members run on cells of up to
+/// `member_cell`, and only where something can move.
+class ForecastEnsemble {
+ public:
+  struct Settings {
+    double member_cell = 0;          ///< members run on cells not finer than this; 0: as the map [m]
+    double map_error_length = 0.02;  ///< over which errors of the map are alike [m]
+    double wind_error = 0.05;        ///< standard deviation of a member's wind, a share of friction velocity
+    double direction_error = 0.05;   ///< [rad]
+    double model_error_speed = 0;    ///< growth of the model's own error, calibrated [m/sqrt(s)]
+    std::uint64_t seed = 1;
+  };
+
+  /// Throws Error naming a setting outside its range.
+  ForecastEnsemble(TwinPhysics physics, const Settings& settings);
+
+  /// Runs all members to each horizon. No member: the plain forecast without the layer `spread`. Bits do not
+  /// depend on the number of threads. Throws Error as make_forecasts does.
+  EnsembleForecast run(const HeightMap& start, const std::vector<WindSpell>& wind,
+                       const std::vector<double>& horizons, const std::vector<UncertainParameters>& members,
+                       const UncertainParameters& median) const;
+
+ private:
+  TwinPhysics physics_;
+  Settings settings_;
+};
+
+}  // namespace aeolian
