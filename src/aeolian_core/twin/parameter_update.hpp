@@ -24,8 +24,9 @@ struct ParameterUpdate {
 ///
 /// - what members predict is split by regression into sensitivities to each parameter and scatter for other
 ///   reasons (errors of wind and map), which tells nothing of the parameters and is not taken for it;
-/// - sensitivities are shrunk by the share of them that scatter explains (localisation in the space of
-///   parameters): one that the surface does not show keeps its value and spread;
+/// - sensitivities are shrunk by the share of them that scatter explains, none is left within two standard
+///   errors (localisation in the space of parameters): what the surface does not show keeps its value and
+///   spread;
 /// - the error of the measurement is its variance and, beyond that, what the best fit leaves of the misses,
 ///   the model's own error;
 /// - misses beyond 2.5 of their errors count by their sign only (Huber 1964), so that footprints and fallen
