@@ -88,10 +88,10 @@ ArrayXd weights(const VectorXd& misfit, const VectorXd& variance, double places_
 
 ParameterUpdate update_parameters(const MatrixXd& logs, const Misses& misses) {
   const Standardised prior(logs);
-  const VectorXd mean = misses.predicted.rowwise().mean();
-  const Sensitivity sensitivity(misses.predicted.colwise() - mean, prior.deviations);
+  const VectorXd mean = misses.members.rowwise().mean();
+  const Sensitivity sensitivity(misses.members.colwise() - mean, prior.deviations);
   const MatrixXd& h = sensitivity.of;
-  const VectorXd miss = misses.measured - mean;
+  const VectorXd miss = misses.measured - misses.forecast;
 
   const MatrixXd covariance =
       prior.deviations.transpose() * prior.deviations / static_cast<double>(logs.rows() - 1);
