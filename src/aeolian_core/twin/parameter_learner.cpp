@@ -96,9 +96,11 @@ Misses misses_of(const EnsembleForecast& predicted, std::size_t horizon, const H
   std::vector<HeightMap::Layer> members;
   for (const MemberForecast& member : predicted.members)
     members.push_back(on(grid, predicted.member_geometry, member.elevation[horizon]));
+  const HeightMap& map = predicted.forecasts[horizon].map;
+  const HeightMap::Layer forecast = on(grid, map.geometry(), map.layer(layer::elevation));
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (std::isfinite(found[i]) &&
+    if (std::isfinite(found[i]) && std::isfinite(forecast[i]) &&
         std::all_of(members.begin(), members.end(),
                     [i](const HeightMap::Layer& m) { return std::isfinite(m[i]); }))
       known.push_back(i);
@@ -106,15 +108,17 @@ Misses misses_of(const EnsembleForecast& predicted, std::size_t horizon, const H
   Misses misses;
   const auto places = static_cast<Index>(known.size());
   misses.places_per_fact = std::max(1.0, std::pow(settings.block / grid.cell(), 2));
-  misses.predicted.resize(places, static_cast<Index>(members.size()));
+  misses.members.resize(places, static_cast<Index>(members.size()));
+  misses.forecast.resize(places);
   misses.measured.resize(places);
   misses.variance.resize(places);
   for (Index row = 0; row < places; ++row) {
     const std::size_t i = known[static_cast<std::size_t>(row)];
     misses.measured(row) = found[i];
+    misses.forecast(row) = forecast[i];
     misses.variance(row) = std::isfinite(variance[i]) ? std::max(0.0F, variance[i]) : 0;
     for (std::size_t m = 0; m < members.size(); ++m)
-      misses.predicted(row, static_cast<Index>(m)) = members[m][i];
+      misses.members(row, static_cast<Index>(m)) = members[m][i];
   }
   return misses;
 }
@@ -150,10 +154,9 @@ UncertainParameters ParameterLearner::median() const {
 
 ParameterLearner::Update ParameterLearner::learn(const EnsembleForecast& predicted, std::size_t horizon,
                                                  const HeightMap& measured) {
-  for (const MemberForecast& member : predicted.members)
-    if (horizon >= member.elevation.size())
-      throw Error("learning: there is no horizon " + std::to_string(horizon) + ", the forecast has " +
-                  std::to_string(member.elevation.size()));
+  if (horizon >= predicted.forecasts.size())
+    throw Error("learning: there is no horizon " + std::to_string(horizon) + ", the forecast has " +
+                std::to_string(predicted.forecasts.size()));
   Update update;
   update.before = update.after = median();
   const auto nothing = [&update](const std::string& why) {

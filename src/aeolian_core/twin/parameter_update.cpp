@@ -17,8 +17,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double outlying = 2.5;       // standard deviations from which on a miss counts by its sign
+constexpr double doubtful = 2;         // standard errors within which a sensitivity is none
 constexpr int rounds = 10;             // of reweighting
 constexpr double least_spread = 1e-9;  // of a logarithm that is not known exactly
+
+constexpr double square(double value) { return value * value; }
 
 /// The logarithms of members as a mean and deviations in units of their spread.
 struct Standardised {
@@ -59,7 +62,7 @@ struct Sensitivity {
     scatter = (anomalies - of * deviations.transpose()).squaredNorm() / (places * freedom);
     for (Index i = 0; i < of.cols(); ++i) {
       const double found = of.col(i).squaredNorm();
-      const double by_chance = places * scatter * inverse_gram(i, i);
+      const double by_chance = square(doubtful) * places * scatter * inverse_gram(i, i);
       of.col(i) *= found > by_chance ? 1 - by_chance / found : 0;
     }
   }
@@ -85,10 +88,10 @@ ArrayXd weights(const VectorXd& misfit, const VectorXd& variance, double places_
 
 ParameterUpdate update_parameters(const MatrixXd& logs, const Misses& misses) {
   const Standardised prior(logs);
-  const VectorXd mean = misses.predicted.rowwise().mean();
-  const Sensitivity sensitivity(misses.predicted.colwise() - mean, prior.deviations);
+  const VectorXd mean = misses.members.rowwise().mean();
+  const Sensitivity sensitivity(misses.members.colwise() - mean, prior.deviations);
   const MatrixXd& h = sensitivity.of;
-  const VectorXd miss = misses.measured - mean;
+  const VectorXd miss = misses.measured - misses.forecast;
 
   const MatrixXd covariance =
       prior.deviations.transpose() * prior.deviations / static_cast<double>(logs.rows() - 1);

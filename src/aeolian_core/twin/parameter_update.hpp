@@ -4,9 +4,10 @@
 
 namespace aeolian {
 
-/// What the members of an ensemble predicted for some places, and what was measured there.
+/// What was predicted for some places, and what was measured there.
 struct Misses {
-  Eigen::MatrixXd predicted;  ///< a row for each place, a column for each member
+  Eigen::MatrixXd members;   ///< a row for each place, a column for each member
+  Eigen::VectorXd forecast;  ///< with the geometric mean of the members' parameters
   Eigen::VectorXd measured;
   Eigen::VectorXd variance;    ///< of what was measured
   double places_per_fact = 1;  ///< so many places have errors alike and count as one
@@ -24,8 +25,12 @@ struct ParameterUpdate {
 ///
 /// - what members predict is split by regression into sensitivities to each parameter and scatter for other
 ///   reasons (errors of wind and map), which tells nothing of the parameters and is not taken for it;
-/// - sensitivities are shrunk by the share of them that scatter explains (localisation in the space of
-///   parameters): one that the surface does not show keeps its value and spread;
+/// - misses are those of the forecast with the mean parameters, not of the members' mean, which answers to
+/// the
+///   curvature of the model as well;
+/// - sensitivities are shrunk by the share of them that scatter explains, none is left within two standard
+///   errors (localisation in the space of parameters): what the surface does not show keeps its value and
+///   spread;
 /// - the error of the measurement is its variance and, beyond that, what the best fit leaves of the misses,
 ///   the model's own error;
 /// - misses beyond 2.5 of their errors count by their sign only (Huber 1964), so that footprints and fallen
