@@ -148,7 +148,7 @@ TEST_F(ForecasterTest, AirThatTheTableDoesNotKnowIsTold) {
 }
 
 TEST_F(ForecasterTest, MembersTellTheSpreadAndLeaveTheElevation) {
-  start("law", {"_members:=5", "_member_cell:=0.01"});
+  start("law", {"_members:=8", "_member_cell:=0.01"});
   EXPECT_LT(largest_difference(forecast(), expected(steady_saltation(0.45, Grain{}))), 1e-7);
   const HeightMap map = to_height_map(*forecasts_.messages.front());
   ASSERT_TRUE(map.has(layer::spread));
@@ -158,7 +158,7 @@ TEST_F(ForecasterTest, MembersTellTheSpreadAndLeaveTheElevation) {
 TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
   const std::string path = folder_.path() + "/learned.yaml";
   const std::vector<std::string> learning{
-      "_members:=5",         "_learning:=on",         "_learned_file:=" + path,
+      "_members:=8",         "_learning:=on",         "_learned_file:=" + path,
       "_horizons:=[10, 20]", "_learning_horizon:=10", "_period:=10"};
   Listener<aeolian_msgs::LearnedParameters> learned{nh_, "learned"};
   start("law", learning);
@@ -219,8 +219,8 @@ TEST_F(ForecasterTest, WindAheadIsUsedAndToldWhenItIsLate) {
 }
 
 TEST_F(ForecasterTest, BadParametersAreRefused) {
-  EXPECT_EQ(run_program("forecaster __name:=refused _members:=1").err,
-            "forecaster: /refused/members: 1 is not allowed, must be 0, or 2 and more\n");
+  EXPECT_EQ(run_program("forecaster __name:=refused _members:=3").err,
+            "forecaster: /refused/members: 3 is not allowed, must be 0, or 8 and more\n");
   EXPECT_EQ(run_program("forecaster __name:=refused _wind_ahead_file:=/nowhere.csv").code, 1);
 }
 

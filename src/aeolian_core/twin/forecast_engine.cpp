@@ -26,8 +26,6 @@ void check(const ForecastEngine::Settings& settings) {
   positive(settings.period, "period");
   positive(settings.learning_horizon, "learning horizon");
   positive(settings.learning_tolerance, "learning tolerance");
-  require(!settings.learner || settings.learner->members >= 2, "number of members",
-          settings.learner ? static_cast<double>(settings.learner->members) : 0, "two or more");
 }
 
 std::size_t nearest(const std::vector<double>& values, double wanted) {

@@ -14,7 +14,8 @@
 namespace aeolian {
 namespace {
 
-const std::string law = "law";  // name of the three-number law
+const std::string law = "law";     // name of the three-number law
+constexpr int fewest_members = 8;  // that tell a spread and that a learner takes
 
 std::string sigma_of(std::size_t parameter) { return UncertainParameters::names()[parameter] + "_sigma"; }
 
@@ -89,7 +90,7 @@ ForecastEngine::Settings read_engine(const Parameters& parameters, const Tell& t
   ensemble.model_error_speed = parameters.number("model_error_speed");
   ensemble.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
   const int members = parameters.integer("members");
-  if (members == 1) parameters.refuse("members", "0, or 2 and more");
+  if (members > 0 && members < fewest_members) parameters.refuse("members", "0, or 8 and more");
   if (members > 0) settings.learner = read_learner(parameters, static_cast<std::size_t>(members));
   settings.learning = parameters.text("learning") != "off";
   settings.learning_horizon = parameters.number("learning_horizon");

@@ -190,7 +190,7 @@ TEST(ForecastEngine, RefusesSettingsWindAndTimes) {
   EXPECT_NE(refusal([](auto& s) { s.horizons = {20, 10}; }), "no error was thrown");
   EXPECT_NE(refusal([](auto& s) { s.horizons.clear(); }), "no error was thrown");
   EXPECT_EQ(refusal([](auto& s) { s.period = 0; }), "forecaster: period is 0, must be positive and finite");
-  EXPECT_NE(refusal([](auto& s) { s.learner.emplace().members = 1; }).find("must be two or more"),
+  EXPECT_NE(refusal([](auto& s) { s.learner.emplace().members = 1; }).find("members is 1, must be"),
             std::string::npos);
   ForecastEngine engine(settings());
   WindSample spike = sample(1);
