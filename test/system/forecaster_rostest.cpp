@@ -63,6 +63,8 @@ double largest_difference(const HeightMap::Layer& a, const HeightMap::Layer& b) 
 
 class ForecasterTest : public ::testing::Test {
  protected:
+  void TearDown() override { ros::param::del("/forecaster"); }  // the next one has its own parameters
+
   void start(const std::string& saltation, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"_saltation:=" + saltation, "_diagnostic_period:=0.1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -219,9 +221,9 @@ TEST_F(ForecasterTest, WindAheadIsUsedAndToldWhenItIsLate) {
 }
 
 TEST_F(ForecasterTest, BadParametersAreRefused) {
-  EXPECT_EQ(run_program("forecaster __name:=refused _members:=3").err,
-            "forecaster: /refused/members: 3 is not allowed, must be 0, or 8 and more\n");
-  EXPECT_EQ(run_program("forecaster __name:=refused _wind_ahead_file:=/nowhere.csv").code, 1);
+  EXPECT_EQ(run_program("forecaster __name:=few _members:=3").err,
+            "forecaster: /few/members: 3 is not allowed, must be 0, or 8 and more\n");
+  EXPECT_EQ(run_program("forecaster __name:=lost _wind_ahead_file:=/nowhere.csv").code, 1);
 }
 
 TEST_F(ForecasterTest, GrainsThatTheTableDoesNotHoldAreRefused) {
