@@ -159,15 +159,14 @@ TEST_F(ForecasterTest, MembersTellTheSpreadAndLeaveTheElevation) {
 
 TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
   const std::string path = folder_.path() + "/learned.yaml";
-  const std::vector<std::string> learning{
-      "_members:=8",         "_learning:=on",         "_learned_file:=" + path,
-      "_horizons:=[10, 20]", "_learning_horizon:=10", "_period:=10"};
+  const std::vector<std::string> learning{"_members:=8", "_learning:=on", "_learned_file:=" + path,
+                                          "_learning_horizon:=30", "_period:=30"};
   Listener<aeolian_msgs::LearnedParameters> learned{nh_, "learned"};
   start("law", learning);
   ASSERT_TRUE(map_at(1000));
-  ASSERT_TRUE(map_at(1010));
+  ASSERT_TRUE(map_at(1030));
   ASSERT_TRUE(wait_until([&] { return !learned.messages.empty(); }));
-  EXPECT_EQ(learned.messages[0]->header.stamp, ros::Time(1010));
+  EXPECT_EQ(learned.messages[0]->header.stamp, ros::Time(1030));
   EXPECT_EQ(learned.messages[0]->why_not, "");
   EXPECT_TRUE(learned.messages[0]->learned);
   EXPECT_TRUE(std::filesystem::exists(path));
@@ -175,7 +174,7 @@ TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
   std_srvs::SetBool freeze;
   freeze.request.data = 1;
   ASSERT_TRUE(ros::service::call("freeze_learning", freeze));
-  ASSERT_TRUE(map_at(1020));
+  ASSERT_TRUE(map_at(1060));
   ASSERT_TRUE(wait_until([&] { return learned.messages.size() > 1; }));
   EXPECT_FALSE(learned.messages[1]->learned);
   EXPECT_EQ(learned.messages[1]->median, learned.messages[0]->median);
@@ -184,7 +183,7 @@ TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
   learned.messages.clear();
   start("law", learning);
   ASSERT_TRUE(map_at(2000));
-  ASSERT_TRUE(map_at(2010));
+  ASSERT_TRUE(map_at(2030));
   ASSERT_TRUE(wait_until([&] { return !learned.messages.empty(); }));
   EXPECT_EQ(learned.messages.back()->updates, 2U);
 }

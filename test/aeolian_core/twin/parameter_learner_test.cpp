@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "error_of.hpp"
-#include "temporary_folder.hpp"
+#include "../../error_of.hpp"
+#include "../../temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/random.hpp"
