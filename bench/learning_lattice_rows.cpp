@@ -145,7 +145,7 @@ void lattice_day_rows(AccuracyTable& table, const std::string& folder) {
   const auto given = outcomes_of(From::hindcasts, true);
   rows(
       table, given, "A lattice bed, the wind given ahead",
-      "A targets' day: 24 days of a bed of single grains (0.51 m × 0.26 m, 0.8 mm columns; friction velocity "
+      "24 days of a bed of single grains (0.51 m × 0.26 m, 0.8 mm columns; friction velocity "
       "0.38 to 0.5 m/s, gusts of 12 %, turns of up to 20° to either side, ripples five to ten minutes old "
       "when "
       "the day begins), seen with 0.2 mm of noise on 2 mm cells by a twin whose anemometer is wrong by a "

@@ -26,8 +26,7 @@ struct ParameterUpdate {
 /// - what members predict is split by regression into sensitivities to each parameter and scatter for other
 ///   reasons (errors of wind and map), which tells nothing of the parameters and is not taken for it;
 /// - misses are those of the forecast with the mean parameters, not of the members' mean, which answers to
-/// the
-///   curvature of the model as well;
+///   the curvature of the model as well;
 /// - sensitivities are shrunk by the share of them that scatter explains, none is left within two standard
 ///   errors (localisation in the space of parameters): what the surface does not show keeps its value and
 ///   spread;
