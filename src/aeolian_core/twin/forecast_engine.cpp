@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "aeolian_core/surface/error.hpp"
@@ -24,15 +25,20 @@ void check(const ForecastEngine::Settings& settings) {
     last = horizon;
   }
   positive(settings.period, "period");
-  positive(settings.learning_horizon, "learning horizon");
-  positive(settings.learning_tolerance, "learning tolerance");
+  positive(settings.learning_period, "learning period");
 }
 
-std::size_t nearest(const std::vector<double>& values, double wanted) {
-  const auto at = std::min_element(values.begin(), values.end(), [wanted](double a, double b) {
-    return std::abs(a - wanted) < std::abs(b - wanted);
-  });
-  return static_cast<std::size_t>(at - values.begin());
+/// Of hindcasts: the wind is known, and an error of the map would only hide what the parameters do.
+ForecastEnsemble::Settings without_errors(ForecastEnsemble::Settings settings) {
+  settings.wind_error = settings.direction_error = 0;
+  return settings;
+}
+
+HeightMap layers_of(const HeightMap& map, std::initializer_list<std::string> names) {
+  HeightMap result(map.geometry());
+  for (const std::string& name : names)
+    if (map.has(name)) result.add(name, map.layer(name));
+  return result;
 }
 
 const ForecastEngine::Settings& checked(const ForecastEngine::Settings& settings) {
@@ -44,8 +50,8 @@ const ForecastEngine::Settings& checked(const ForecastEngine::Settings& settings
 
 ForecastEngine::ForecastEngine(const Settings& settings)
     : settings_(checked(settings)),
-      learning_horizon_(nearest(settings.horizons, settings.learning_horizon)),
       ensemble_(settings.physics, settings.ensemble),
+      hindcasts_(settings.physics, without_errors(settings.ensemble)),
       wind_(settings.wind) {
   settings_.physics.saltation.check(settings_.physics.grain);
   if (settings_.learner) learner_.emplace(*settings_.learner);
@@ -63,42 +69,50 @@ void ForecastEngine::give_wind_ahead(std::vector<WindSample> samples) {
 }
 
 void ForecastEngine::begin_anew() {
-  kept_.reset();
+  lesson_.reset();
   last_forecast_.reset();
   forecast_before_.reset();
-  taught_until_.reset();
 }
 
 bool ForecastEngine::is_due(double time) const {
   return !last_forecast_ || seconds_between(*last_forecast_, time) >= settings_.period;
 }
 
-/// From the forecast that holds for this map, if there is one.
+/// From the hindcast that ends with this map, if it is time for one.
 std::optional<ParameterLearner::Update> ForecastEngine::learn(const HeightMap& map, double time) {
-  if (!kept_) return std::nullopt;
-  const double due = kept_->time + settings_.horizons[learning_horizon_];
-  const double late = seconds_between(due, time);
-  if (late < 0) return std::nullopt;
-  const Kept kept = std::move(*kept_);
-  kept_.reset();
-  if (late > settings_.learning_tolerance) {
+  if (!learner_ || !settings_.learning) return std::nullopt;
+  const double period = lesson_ ? seconds_between(lesson_->time, time) : 0;
+  if (lesson_ && period < settings_.learning_period) return std::nullopt;
+  std::optional<ParameterLearner::Update> update;
+  if (lesson_) update = learn(*lesson_, map, period);
+  lesson_ = Lesson{time, layers_of(map, {layer::elevation, layer::ground})};
+  return update;
+}
+
+ParameterLearner::Update ForecastEngine::learn(const Lesson& lesson, const HeightMap& map, double period) {
+  const auto nothing = [this](const std::string& why) {
     ParameterLearner::Update update;
-    update.why_not = "no map came in the " + std::to_string(settings_.learning_tolerance) +
-                     " s after the time of the forecast";
+    update.why_not = why;
     update.before = update.after = learner_->median();
     return update;
-  }
-  taught_until_ = time;
-  return learner_->learn(kept.forecast, learning_horizon_, map);
+  };
+  if (period > 2 * settings_.learning_period)
+    return nothing("no map came within " + std::to_string(2 * settings_.learning_period) +
+                   " s of the last one learned from");
+  const std::vector<WindSpell> wind = wind_.blew(lesson.time, period);
+  if (wind.empty()) return nothing("the wind that blew is not known");
+  for (const WindSpell& spell : wind)
+    if (spell.longest_gap > settings_.wind.max_gap)
+      return nothing("the wind has a gap of " + std::to_string(spell.longest_gap) + " s");
+  return learner_->learn(
+      hindcasts_.run(lesson.start, wind, {period}, learner_->members(), learner_->median()), 0, map);
 }
 
 ForecastJob ForecastEngine::make_job(const HeightMap& map, double time, std::vector<WindSpell> wind) const {
   ForecastJob job;
   job.time = time;
   job.wind = std::move(wind);
-  job.start = HeightMap(map.geometry());
-  for (const auto& name : {layer::elevation, layer::ground, layer::variance})
-    if (map.has(name)) job.start.add(name, map.layer(name));
+  job.start = layers_of(map, {layer::elevation, layer::ground, layer::variance});
   if (learner_) {
     job.members = learner_->members();
     job.median = learner_->median();
@@ -112,7 +126,7 @@ ForecastEngine::Taken ForecastEngine::take_map(const HeightMap& map, double time
   last_map_ = time;
 
   Taken taken;
-  if (auto update = learn(map, time)) taken.learned.push_back(std::move(*update));
+  taken.learned = learn(map, time);
   if (!is_due(time)) return taken;
   std::vector<WindSpell> wind = wind_.spells(time, settings_.horizons.back());
   if (wind.empty()) {
@@ -144,16 +158,6 @@ void ForecastEngine::begin(const ForecastJob& job) {
 
 EnsembleForecast ForecastEngine::run(const ForecastJob& job) const {
   return ensemble_.run(job.start, job.wind, settings_.horizons, job.members, job.median);
-}
-
-void ForecastEngine::keep(const ForecastJob& job, EnsembleForecast forecast) {
-  if (!learner_ || !settings_.learning || !last_map_ || forecast.members.empty()) return;
-  const bool from_before = job.time > *last_map_;  // the engine began anew
-  const bool overlaps = kept_ || (taught_until_ && seconds_between(*taught_until_, job.time) < 0);
-  const double due = job.time + settings_.horizons[learning_horizon_];
-  const bool is_over = seconds_between(due, *last_map_) > 0;
-  if (from_before || overlaps || is_over) return;
-  kept_ = Kept{job.time, std::move(forecast)};
 }
 
 }  // namespace aeolian

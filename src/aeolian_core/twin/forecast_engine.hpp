@@ -23,7 +23,10 @@ struct ForecastJob {
 ///
 ///     engine.take_wind(sample);
 ///     const ForecastEngine::Taken taken = engine.take_map(map, time);
-///     if (taken.job) engine.keep(*taken.job, engine.run(*taken.job));
+///     if (taken.job) publish(engine.run(*taken.job));
+///
+/// It learns from hindcasts: when a map comes, members go to it from an earlier one in the wind that blew, so
+/// that what they miss by is the parameters', not the weather's.
 class ForecastEngine {
  public:
   struct Settings {
@@ -32,10 +35,9 @@ class ForecastEngine {
     WindCourse::Settings wind;
     std::optional<ParameterLearner::Settings> learner;  ///< nothing: one forecast with the given parameters
     bool learning = true;                               ///< misses are looked at; needs a learner
-    /// Misses are those of the horizon nearest to this, of forecasts that do not overlap: each stretch of
-    /// time teaches once [s].
-    double learning_horizon = 60;
-    double learning_tolerance = 1;  ///< the map learned from comes at most so long after its time [s]
+    /// From one map learned from to the next, at least [s]. One that comes after twice as long teaches
+    /// nothing: too much has happened.
+    double learning_period = 60;
     std::vector<double> horizons{30, 60, 120, 300};  ///< [s]
     double period = 30;                              ///< between forecasts [s]
   };
@@ -50,9 +52,9 @@ class ForecastEngine {
 
   /// What a measured map leads to.
   struct Taken {
-    std::optional<ForecastJob> job;                 ///< when a forecast is due and there is wind
-    std::vector<ParameterLearner::Update> learned;  ///< from forecasts whose time has come
-    std::optional<double> bridged_gap;              ///< in the wind of the job [s]
+    std::optional<ForecastJob> job;                   ///< when a forecast is due and there is wind
+    std::optional<ParameterLearner::Update> learned;  ///< from a hindcast of this map
+    std::optional<double> bridged_gap;                ///< in the wind of the job [s]
     /// Of the longest horizon, how much the wind that was once given ahead does not reach: bridged [s].
     std::optional<double> not_given_ahead;
     bool without_wind = false;  ///< due, but no wind is known
@@ -68,33 +70,31 @@ class ForecastEngine {
 
   /// May run in another thread while maps and wind are taken.
   EnsembleForecast run(const ForecastJob& job) const;
-  /// Hands back what a job led to, to be learned from when its time comes. A forecast that is older than the
-  /// newest map by then teaches nothing.
-  void keep(const ForecastJob& job, EnsembleForecast forecast);
 
   ParameterLearner* learner() { return learner_ ? &*learner_ : nullptr; }
   const Settings& settings() const { return settings_; }
 
  private:
-  struct Kept {
+  /// The map from which the next hindcast starts: elevation and ground.
+  struct Lesson {
     double time;
-    EnsembleForecast forecast;
+    HeightMap start;
   };
 
   void begin_anew();
   bool is_due(double time) const;
   std::optional<ParameterLearner::Update> learn(const HeightMap& map, double time);
+  ParameterLearner::Update learn(const Lesson& lesson, const HeightMap& map, double period);
   ForecastJob make_job(const HeightMap& map, double time, std::vector<WindSpell> wind) const;
 
   Settings settings_;
-  std::size_t learning_horizon_ = 0;  ///< its number
   ForecastEnsemble ensemble_;
+  ForecastEnsemble hindcasts_;  ///< members differ in their parameters only
   WindCourse wind_;
   std::optional<ParameterLearner> learner_;
-  std::optional<Kept> kept_;  ///< that is learned from next
+  std::optional<Lesson> lesson_;
   std::optional<double> last_map_;
   std::optional<double> last_forecast_, forecast_before_;
-  std::optional<double> taught_until_;  ///< time of the last map learned from
 };
 
 }  // namespace aeolian

@@ -34,6 +34,7 @@ WindCourse::WindCourse(const Settings& settings) : settings_(settings) {
   positive(settings.max_gap, "longest gap");
   positive(settings.max_friction_velocity, "greatest friction velocity");
   positive(settings.spell, "spell");
+  positive(settings.memory, "memory");
 }
 
 void WindCourse::check(const WindSample& sample) const {
@@ -52,7 +53,8 @@ void WindCourse::add(const WindSample& sample) {
   if (!past_.empty() && sample.time < past_.back().time) past_.clear();
   past_.push_back(sample);
   // Maps may be older than the newest wind, so twice the window is kept.
-  while (sample.time - past_.front().time > 2 * settings_.window) past_.pop_front();
+  const double kept = std::max(2 * settings_.window, settings_.memory);
+  while (sample.time - past_.front().time > kept) past_.pop_front();
 }
 
 void WindCourse::give_ahead(std::vector<WindSample> samples) {
@@ -94,22 +96,46 @@ std::optional<double> WindCourse::ahead_until() const {
   return end_of_ahead(ahead_.size() - 1);
 }
 
-/// The part of the wind given ahead that lies within a forecast, in spells without a hole between them.
+/// Adds a sample that holds from one lead time to another, in spells without a hole between them.
+void WindCourse::hold(std::vector<WindSpell>& spells, const WindSample& sample, double from,
+                      double to) const {
+  while (from < to) {
+    const double spell_end = settings_.spell * (std::floor(from / settings_.spell) + 1);
+    const double until = std::min(to, spell_end);
+    const bool joins = !spells.empty() && std::fmod(from, settings_.spell) > 0;
+    if (!joins) spells.push_back({until, {}, {}, 0, false});
+    spells.back().until = until;
+    spells.back().samples.push_back(sample);
+    spells.back().weights.push_back(until - from);
+    from = until;
+  }
+}
+
+/// The part of the wind given ahead that lies within a forecast.
 std::vector<WindSpell> WindCourse::given(double time, double horizon) const {
   std::vector<WindSpell> result;
-  for (std::size_t i = 0; i < ahead_.size(); ++i) {
-    double from = std::max(0.0, seconds_between(time, ahead_[i].time));
-    const double to = std::min(horizon, seconds_between(time, end_of_ahead(i)));
-    while (from < to) {
-      const double spell_end = settings_.spell * (std::floor(from / settings_.spell) + 1);
-      const double until = std::min(to, spell_end);
-      const bool joins = !result.empty() && std::fmod(from, settings_.spell) > 0;
-      if (!joins) result.push_back({until, {}, {}, 0, true});
-      result.back().until = until;
-      result.back().samples.push_back(ahead_[i]);
-      result.back().weights.push_back(until - from);
-      from = until;
-    }
+  for (std::size_t i = 0; i < ahead_.size(); ++i)
+    hold(result, ahead_[i], std::max(0.0, seconds_between(time, ahead_[i].time)),
+         std::min(horizon, seconds_between(time, end_of_ahead(i))));
+  for (WindSpell& spell : result) spell.ahead = true;
+  return result;
+}
+
+std::vector<WindSpell> WindCourse::blew(double time, double duration) const {
+  const auto late = [time](const WindSample& sample) { return seconds_between(time, sample.time); };
+  if (past_.empty() || late(past_.front()) > settings_.max_gap ||
+      late(past_.back()) < duration - settings_.max_gap)
+    return {};
+  std::vector<WindSpell> result;
+  for (std::size_t i = 0; i < past_.size(); ++i) {
+    const bool is_last = i + 1 == past_.size();
+    const double begin = i == 0 ? std::min(0.0, late(past_[i])) : late(past_[i]);
+    const double end = is_last ? std::max(duration, begin) : late(past_[i + 1]);
+    const double from = std::max(0.0, begin);
+    const double to = std::min(duration, end);
+    if (from >= to) continue;
+    hold(result, past_[i], from, to);
+    if (!is_last) result.back().longest_gap = std::max(result.back().longest_gap, end - begin);
   }
   return result;
 }

@@ -34,7 +34,8 @@ class WindCourse {
     double window = 60;                ///< the wind of so long before a forecast goes on blowing [s]
     double max_gap = 5;                ///< no sample stands for longer [s]
     double max_friction_velocity = 3;  ///< what is above is a spike, not a wind [m/s]
-    double spell = 30;                 ///< wind given ahead is averaged over at most so long [s]
+    double spell = 30;                 ///< wind that changes is averaged over at most so long [s]
+    double memory = 600;               ///< for which what blew is known [s]
   };
 
   /// Throws Error naming a setting that is not positive.
@@ -54,6 +55,10 @@ class WindCourse {
   /// is given ahead for any time of the forecast.
   std::vector<WindSpell> spells(double time, double horizon) const;
 
+  /// The wind that blew from `time` on for `duration` [s], as spells() has that to come. Empty unless it is
+  /// known from the first to the last, but for a gap that spells tell of.
+  std::vector<WindSpell> blew(double time, double duration) const;
+
   /// The time up to which wind has been given ahead [s]; nothing when none has.
   std::optional<double> ahead_until() const;
 
@@ -62,6 +67,7 @@ class WindCourse {
   std::optional<WindSpell> before(double time) const;
   double end_of_ahead(std::size_t sample) const;
   std::vector<WindSpell> given(double time, double horizon) const;
+  void hold(std::vector<WindSpell>& spells, const WindSample& sample, double from, double to) const;
 
   Settings settings_;
   std::deque<WindSample> past_;

@@ -93,7 +93,7 @@ ForecastEngine::Settings read_engine(const Parameters& parameters, const Tell& t
   if (members > 0 && members < fewest_members) parameters.refuse("members", "0, or 8 and more");
   if (members > 0) settings.learner = read_learner(parameters, static_cast<std::size_t>(members));
   settings.learning = parameters.text("learning") != "off";
-  settings.learning_horizon = parameters.number("learning_horizon");
+  settings.learning_period = parameters.number("learning_period");
   return settings;
 }
 
@@ -189,8 +189,8 @@ std::vector<ParameterDeclaration> engine_parameters() {
        "from misses: on, frozen (misses are only watched), or off",
        {},
        {"on", "frozen", "off"}},
-      {"learning_horizon", engine.learning_horizon, "s",
-       "misses of the horizon nearest to this are learned from", Limits::positive()},
+      {"learning_period", engine.learning_period, "s", "at least, from one map learned from to the next",
+       Limits::positive()},
       {"learned_file", std::string(), "", "YAML: read at the start, written after each lesson; empty: none"},
   };
   const ParameterPriors priors = default_priors();

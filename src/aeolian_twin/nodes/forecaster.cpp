@@ -101,7 +101,7 @@ class Forecaster : public Node {
       const std::lock_guard<std::mutex> lock(mutex_);
       ForecastEngine::Taken taken = engine_->take_map(map, header.stamp.toSec());
       say(taken, header.stamp);
-      for (const ParameterLearner::Update& update : taken.learned) publish(update, header);
+      if (taken.learned) publish(*taken.learned, header);
       if (taken.job) submit({std::move(*taken.job), header});
     }
     wake_.notify_one();
@@ -177,17 +177,16 @@ class Forecaster : public Node {
       engine_->begin(job.job);
       working_ = true;
       lock.unlock();
-      std::optional<EnsembleForecast> forecast = run(job);
+      run(job);
       lock.lock();
-      if (forecast) engine_->keep(job.job, std::move(*forecast));
       working_ = false;
     }
   }
 
-  std::optional<EnsembleForecast> run(const Job& job) {
+  void run(const Job& job) {
     try {
       const ros::WallTime begin = ros::WallTime::now();
-      EnsembleForecast result = engine_->run(job.job);
+      const EnsembleForecast result = engine_->run(job.job);
       for (const Forecast& forecast : result.forecasts) {
         std_msgs::Header header = job.header;
         header.stamp += ros::Duration(forecast.lead_time);
@@ -200,10 +199,8 @@ class Forecaster : public Node {
                "from east",
                result.forecasts.size(), result.members.size(), (ros::WallTime::now() - begin).toSec(),
                1e3 * forcing.erosion_rate(), radians_to_degrees(forcing.direction)));
-      return result;
     } catch (const Error& error) {
       bad("forecast", error.what());
-      return std::nullopt;
     }
   }
 

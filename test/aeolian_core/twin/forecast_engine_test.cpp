@@ -18,10 +18,19 @@ HeightMap flat() {
   return map;
 }
 
-WindSample sample(double time) {
+HeightMap rippled() {
+  const GridGeometry plot(0, 0, 0.004, 100, 24);
+  HeightMap map(plot);
+  HeightMap::Layer& z = map.add(layer::elevation, 0.0F);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    z[i] = static_cast<float>(0.002 * std::sin(2 * M_PI * plot.x(plot.cell_at(i).x) / 0.08));
+  return map;
+}
+
+WindSample sample(double time, double friction_velocity = 0.4) {
   WindSample s;
   s.time = epoch + time;
-  s.friction_velocity = 0.4;
+  s.friction_velocity = friction_velocity;
   return s;
 }
 
@@ -29,7 +38,7 @@ ForecastEngine::Settings settings(bool learns = false) {
   ForecastEngine::Settings result;
   result.horizons = {10, 20};
   result.period = 10;
-  result.learning_horizon = 20;
+  result.learning_period = 20;
   if (learns) {
     result.learner.emplace();
     result.learner->members = 8;
@@ -75,8 +84,7 @@ TEST(ForecastEngine, WithoutALearnerThereIsOneForecast) {
   EXPECT_EQ(taken.job->median.values(), UncertainParameters{}.values());
   const EnsembleForecast forecast = engine.run(*taken.job);
   EXPECT_FALSE(forecast.forecasts[0].map.has(layer::spread));
-  engine.keep(*taken.job, forecast);
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 30).learned.empty());
+  EXPECT_FALSE(engine.take_map(flat(), epoch + 40).learned);
 }
 
 TEST(ForecastEngine, WithoutWindItSaysSoAndTheNextMapIsDue) {
@@ -135,50 +143,64 @@ TEST(ForecastEngine, AJobThatWaitsGivesWayToANewerMap) {
 TEST(ForecastEngine, EachStretchOfTimeTeachesOnce) {
   ForecastEngine engine = engine_with_wind(settings(true), 100);
   std::vector<double> lessons;
-  for (int time = 10; time <= 90; ++time) {
-    const ForecastEngine::Taken taken = engine.take_map(flat(), epoch + time);
-    if (!taken.learned.empty()) lessons.push_back(time);
-    if (taken.job) engine.keep(*taken.job, engine.run(*taken.job));
-  }
+  for (int time = 10; time <= 90; ++time)
+    if (engine.take_map(flat(), epoch + time).learned) lessons.push_back(time);
   EXPECT_EQ(lessons, (std::vector<double>{30, 50, 70, 90}));
 }
 
-TEST(ForecastEngine, NothingIsLearnedFromAMapOfAnotherTime) {
-  ForecastEngine engine = engine_with_wind(settings(true), 100);
-  const ForecastEngine::Taken taken = engine.take_map(flat(), epoch + 10);
-  engine.keep(*taken.job, engine.run(*taken.job));
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 29).learned.empty());
-  const ForecastEngine::Taken late = engine.take_map(flat(), epoch + 32);
-  ASSERT_EQ(late.learned.size(), 1U);
-  EXPECT_FALSE(late.learned[0].learned);
-  EXPECT_NE(late.learned[0].why_not.find("no map came in the 1"), std::string::npos);
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 33).learned.empty());
+TEST(ForecastEngine, AMapIsLearnedFromInTheWindThatBlewAndNotInThatWhichWasForeseen) {
+  ForecastEngine::Settings chosen = settings(true);
+  chosen.learning_period = 30;
+  const HeightMap start = rippled();
+  RippleModel model(chosen.physics.ripple);
+  WindSpell gale;
+  gale.samples = {sample(0, 0.5)};
+  gale.weights = {1};
+  HeightMap later = start;
+  model.advance(later, forcing_of(chosen.physics, gale, {}), 30);
+
+  const auto learned_in = [&](double friction_velocity) {
+    ForecastEngine engine(chosen);
+    for (int i = 0; i <= 10; ++i) engine.take_wind(sample(i, 0.3));
+    engine.take_map(start, epoch + 10);  // as foreseen, a light wind goes on
+    for (int i = 10; i <= 40; ++i) engine.take_wind(sample(i, friction_velocity));
+    const auto update = engine.take_map(later, epoch + 40).learned;
+    EXPECT_TRUE(update && update->learned) << (update ? update->why_not : "nothing");
+    return update ? update->after.friction_velocity : 0;
+  };
+  EXPECT_NEAR(learned_in(0.5), 1, 0.02);
+  EXPECT_GT(learned_in(0.42), 1.08);  // an anemometer that reads too little
 }
 
-TEST(ForecastEngine, AForecastOlderThanTheMapTeachesNothing) {
+TEST(ForecastEngine, NothingIsLearnedFromAMapThatComesTooLate) {
   ForecastEngine engine = engine_with_wind(settings(true), 100);
-  const ForecastEngine::Taken taken = engine.take_map(flat(), epoch + 10);
-  const EnsembleForecast forecast = engine.run(*taken.job);
-  engine.take_map(flat(), epoch + 35);  // while it was on its way
-  engine.keep(*taken.job, forecast);
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 36).learned.empty());
+  engine.take_map(flat(), epoch + 10);
+  const auto late = engine.take_map(flat(), epoch + 51).learned;
+  ASSERT_TRUE(late);
+  EXPECT_FALSE(late->learned);
+  EXPECT_NE(late->why_not.find("no map came within 40"), std::string::npos);
+  EXPECT_TRUE(engine.take_map(flat(), epoch + 71).learned);  // it was the start of the next lesson
+}
 
-  // Nor does one of before a bag began anew.
-  const ForecastEngine::Taken before = engine.take_map(flat(), epoch + 50);
-  engine.take_wind(sample(0));
-  engine.take_map(flat(), epoch);
-  engine.keep(*before.job, engine.run(*before.job));
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 70).learned.empty());
+TEST(ForecastEngine, NothingIsLearnedWithoutTheWindThatBlew) {
+  ForecastEngine engine = engine_with_wind(settings(true), 15);
+  engine.take_map(flat(), epoch + 10);
+  const auto unknown = engine.take_map(flat(), epoch + 30).learned;
+  ASSERT_TRUE(unknown);
+  EXPECT_NE(unknown->why_not.find("the wind that blew is not known"), std::string::npos);
+  engine.take_wind(sample(30));
+  engine.take_wind(sample(50));
+  const auto gap = engine.take_map(flat(), epoch + 50).learned;
+  ASSERT_TRUE(gap);
+  EXPECT_NE(gap->why_not.find("the wind has a gap of 20"), std::string::npos);
 }
 
 TEST(ForecastEngine, LearningCanBeOff) {
   ForecastEngine::Settings off = settings(true);
   off.learning = false;
   ForecastEngine engine = engine_with_wind(off, 100);
-  const ForecastEngine::Taken taken = engine.take_map(flat(), epoch + 10);
-  EXPECT_EQ(taken.job->members.size(), 8U);
-  engine.keep(*taken.job, engine.run(*taken.job));
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 30).learned.empty());
+  EXPECT_EQ(engine.take_map(flat(), epoch + 10).job->members.size(), 8U);
+  EXPECT_FALSE(engine.take_map(flat(), epoch + 30).learned);
 }
 
 TEST(ForecastEngine, RefusesSettingsWindAndTimes) {

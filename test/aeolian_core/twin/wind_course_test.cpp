@@ -156,5 +156,35 @@ TEST(WindCourse, RefusesSettings) {
   EXPECT_EQ(error_of([&] { WindCourse{settings}; }), "wind: window is 0, must be positive and finite");
 }
 
+TEST(WindCourse, WhatBlewIsGivenInSpells) {
+  WindCourse wind({});
+  for (int i = 0; i <= 100; ++i) wind.add(sample(i, i < 40 ? 0.3 : 0.5));
+  const auto spells = wind.blew(epoch + 20.5, 60);
+  ASSERT_EQ(spells.size(), 2U);
+  EXPECT_EQ(spells[0].until, 30);
+  EXPECT_EQ(spells[1].until, 60);
+  double weights = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < spells[0].samples.size(); ++i) {
+    weights += spells[0].weights[i];
+    mean += spells[0].weights[i] * spells[0].samples[i].friction_velocity / 30;
+  }
+  EXPECT_NEAR(weights, 30, 1e-9);
+  EXPECT_NEAR(mean, (19.5 * 0.3 + 10.5 * 0.5) / 30, 1e-9);
+  EXPECT_NEAR(spells[0].longest_gap, 1, 1e-9);
+}
+
+TEST(WindCourse, WhatBlewMustBeKnownFromTheFirstToTheLast) {
+  WindCourse wind({});
+  EXPECT_TRUE(wind.blew(epoch, 10).empty());
+  for (int i = 10; i <= 40; ++i) wind.add(sample(i));
+  EXPECT_TRUE(wind.blew(epoch + 4, 30).empty());
+  EXPECT_EQ(wind.blew(epoch + 6, 30).back().until, 30);   // 4 s without it at first
+  EXPECT_EQ(wind.blew(epoch + 12, 31).back().until, 31);  // 3 s at last
+  EXPECT_TRUE(wind.blew(epoch + 12, 40).empty());
+  wind.add(sample(60));
+  EXPECT_EQ(wind.blew(epoch + 35, 20).front().longest_gap, 20);
+}
+
 }  // namespace
 }  // namespace aeolian
