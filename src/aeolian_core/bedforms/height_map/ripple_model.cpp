@@ -9,14 +9,12 @@
 #include "aeolian_core/bedforms/height_map/ripple_motion.hpp"
 #include "aeolian_core/bedforms/height_map/sand_reach.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* name, double value, const char* range) {
-  if (!allowed)
-    throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
-}
+constexpr Require require{"ripple model"};
 
 /// Writes heights into the known cells of a layer of floats. What rounding takes from a cell is given to the
 /// next known one, so that the layer's sum is right to the rounding of one cell.
