@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace aeolian {
 
@@ -70,6 +71,12 @@ WindFrame::Place WindFrame::computed_place(int station) const {
   const double at = 1 + phase_ + drift_ * station;
   const double row = std::floor(at + 1e-9);
   return {static_cast<int>(row), std::max(0.0, at - row)};
+}
+
+int WindFrame::longest_way() const {
+  if (!periodic_) return stations_;
+  const int moved = computed_place(stations_).offset - computed_place(0).offset;
+  return stations_ * (rows_ / std::gcd(rows_, moved));
 }
 
 /// Calls work(station, row, the cell's index in the grid), by blocks that fit the cache both ways.

@@ -53,6 +53,10 @@ class WindFrame {
     return computed_place(station);
   }
 
+  /// Stations after which a line has been everywhere that it goes: on a periodic grid it may have to go round
+  /// several times until it meets itself.
+  int longest_way() const;
+
   /// Lines that have part in the grid: first_line() <= j < end_line().
   int first_line() const { return first_line_; }
   int end_line() const { return end_line_; }

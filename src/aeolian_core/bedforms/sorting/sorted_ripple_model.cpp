@@ -118,7 +118,6 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   const ActivePatches everywhere(frame.stations(), frame.rows());
 
   const std::vector<double> start = bed.height;
-  const double volume_before = bed.volume();
   const double coarse_before = bed.coarse_volume();
   FrameField dune, height;
   FrameField activity(frame.stations(), frame.rows());
@@ -160,7 +159,9 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   frame.leave(height, bed.height);
   layer.leave();
   change.coarse.change = bed.coarse_volume() - coarse_before;
-  change.fine.change = bed.volume() - volume_before - change.coarse.change;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    change.fine.change += (bed.height[i] - start[i]) * cell * cell;
+  change.fine.change -= change.coarse.change;
   change.active = changed_tiles(geometry, start, bed.height);
   return change;
 }

@@ -352,7 +352,8 @@ void SortedSweep::run(const FrameField& bed, const FrameField& dune, const Frame
       widen(frame_.rows(), bed.at(i), dune.at(i), low.data(), high.data());
     const double relief =
         *std::max_element(high.begin(), high.end()) - *std::min_element(low.begin(), low.end());
-    const double shadow = std::min<double>(frame_.stations(), std::ceil(relief / law_[0].hop.least_drop()));
+    const double shadow =
+        std::min<double>(frame_.longest_way(), std::ceil(relief / law_[0].hop.least_drop()));
     const double carried = std::max(law_[0].hop.carried, law_[1].hop.carried);
     first = -static_cast<int>(shadow + std::ceil(24 / -std::log(carried))) - stages * lag;
   }
