@@ -239,4 +239,11 @@ void HopStage::begin(const HopLaw& law, int line, double height, double share) {
   memory_.out[now_][line] = flux;
 }
 
+void HopStage::shade(int line, double height) {
+  for (auto& envelope : memory_.envelope) {
+    if (height > envelope[line]) memory_.exposure[line] = 0;
+    envelope[line] = std::max(envelope[line], height);
+  }
+}
+
 }  // namespace aeolian

@@ -88,6 +88,9 @@ class HopStage {
   /// its flux.
   void begin(const HopLaw& law, int line, double height, double share);
 
+  /// What a line has just begun behind shades it from this height.
+  void shade(int line, double height);
+
   /// Largest flux on its way among some lines.
   double strongest_flux(int begin, int end) const;
 

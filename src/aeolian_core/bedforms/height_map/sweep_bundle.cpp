@@ -319,6 +319,19 @@ class Bundle {
     if (task_.supply && share > 0)
       share *= task_.supply(station, begin_ + line + frame_.place(station).offset);
     stage_[at(s)].begin(law_, line, height(s, station)[line], share);
+    if (task_.ground && !frame_.periodic()) stage_[at(s)].shade(line, rock_beside(station, line));
+  }
+
+  /// The highest rock, above the dune, some rows to either side of a line on the grid: it is taken to stand
+  /// before the border too, or a pit there would be struck however deep it is.
+  double rock_beside(int station, int line) const {
+    const double* const floor = task_.ground->floor.at(station);
+    const double* const dune = task_.dune.at(station);
+    const int q = begin_ + line + frame_.place(station).offset;
+    double highest = HardGround::bottomless;
+    for (int row = q - FrameField::pad; row < q + FrameField::pad; ++row)
+      highest = std::max(highest, floor[row] - dune[row]);
+    return highest;
   }
 
   /// Visits this bundle's lines that are on an open grid at one station and not at the other.
