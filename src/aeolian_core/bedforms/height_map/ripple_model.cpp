@@ -27,6 +27,18 @@ void store(const std::vector<double>& height, HeightMap::Layer& layer) {
   }
 }
 
+/// What moves on a flat bed, and crosses its borders if they are open.
+VolumeBalance flat_balance(const GridGeometry& g, const Forcing& forcing, double duration, bool open) {
+  const double depth = forcing.erosion_rate() * duration;
+  VolumeBalance volume;
+  volume.moved = depth * g.length_x() * g.length_y();
+  if (open)
+    volume.inflow = volume.outflow = depth * forcing.reptation_length *
+                                     (std::abs(std::cos(forcing.direction)) * g.length_y() +
+                                      std::abs(std::sin(forcing.direction)) * g.length_x());
+  return volume;
+}
+
 constexpr int steps_per_estimate = 16;      ///< of their error, which costs one step
 constexpr double shortest_step = 1.0 / 64;  ///< of the longest
 
@@ -84,7 +96,20 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
                 std::to_string(geometry.size()) + " cells");
   if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
     throw Error("ripple model: a height is not finite");
+  if (stays_flat(height)) {
+    clock_.time += duration;
+    return {TileMask(geometry),
+            flat_balance(geometry, forcing, duration, parameters_.border == Border::open)};
+  }
   return advance(geometry, height, nullptr, nullptr, forcing, duration);
+}
+
+/// Whether nothing changes, since as much comes down everywhere as is struck: on flat sand that flat sand
+/// supplies.
+bool RippleModel::stays_flat(const std::vector<double>& height) const {
+  return (parameters_.border == Border::periodic || parameters_.inflow == Inflow::flat_bed) &&
+         parameters_.stochastic_share == 0 &&
+         std::all_of(height.begin(), height.end(), [&](double h) { return h == height.front(); });
 }
 
 /// Makes steps for so long [s], or until sand may leave the part of the grid in motion. Returns the time

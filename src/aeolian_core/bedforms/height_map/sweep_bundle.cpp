@@ -89,6 +89,7 @@ class Bundle {
     if (task_.ground) return run_on_ground();
     for (int station = task_.first; station < frame_.stations() + stage_stations; ++station) {
       if (!set_live(station)) continue;
+      fetch_ahead(station);
       read(station);
       for (int s = 0; s < stages; ++s) run_stage(s, station - s * lag, task_.first);
       write(station - stage_stations);
@@ -195,6 +196,23 @@ class Bundle {
       const int count = std::min(end - begin, rows - q);
       work(begin, begin + count, q);
       begin += count;
+    }
+  }
+
+  /// Asks for what a later station needs: stations lie too far apart for the memory to guess it.
+  void fetch_ahead(int station) const {
+    constexpr int ahead = 6;
+    constexpr int line_of_cache = 8;
+    const int where = station + ahead;
+    if (where < 0 || where >= frame_.stations()) return;
+    const int q = begin_ + live_.begin + frame_.place(where).offset;
+    const int first = std::clamp(frame_.periodic() ? wrapped(q, frame_.rows()) : q, 0, frame_.rows());
+    const int last = std::min(first + live_.end - live_.begin, frame_.rows());
+    for (int at = first; at <= last; at += line_of_cache) {
+      __builtin_prefetch(task_.bed.at(where) + at);
+      __builtin_prefetch(task_.dune.at(where) + at);
+      __builtin_prefetch(task_.erosion.at(where) + at, 1);
+      __builtin_prefetch(task_.deposition.at(where) + at, 1);
     }
   }
 
