@@ -133,6 +133,7 @@ class Bundle {
         for (HopStage& stage : stage_) stage.forget_shadows();
       }
       if (!set_live(station)) continue;
+      fetch_ahead(station);
       read(station);
       for (int s = 0; s < stages; ++s) {
         const int k = station - s * lag;
@@ -213,6 +214,9 @@ class Bundle {
       __builtin_prefetch(task_.dune.at(where) + at);
       __builtin_prefetch(task_.erosion.at(where) + at, 1);
       __builtin_prefetch(task_.deposition.at(where) + at, 1);
+      if (!task_.ground) continue;
+      __builtin_prefetch(task_.ground->floor.at(where) + at);
+      __builtin_prefetch(task_.ground->open.at(where) + at);
     }
   }
 
