@@ -62,11 +62,11 @@ void draw_shares(const std::string& path) {
                           100 * (s.square / whole.square - 1), 100 * s.error / whole.square, 100 * s.share);
   script << "EOD\nunset key\nset grid y\n"
          << fmt::format(
-                "set title 'Noise of single grains drawn by a share of the cells in a step: five "
-                "minutes from a flat bed of 250 x 128 cells of 2 mm, means of {} beds'\n",
+                "set title 'Noise of single grains drawn by a share of the cells: 5 min from a "
+                "flat bed of 250 x 128 cells, means of {}'\n",
                 beds)
          << "set xlabel 'processor time [ms]'\n"
-         << "set ylabel 'mean square height against all cells [%]'\nset offsets graph 0.05, graph 0.08, "
+         << "set ylabel 'mean square height, off that of all cells [%]'\nset offsets graph 0.05, graph 0.08, "
             "graph 0.1, graph 0.1\n"
          << "plot 0 with lines dt 2 lc rgb '#6b6058', $shares using 1:2:3 with yerrorbars pt 7 ps 0.8 lw 1.6 "
             "lc rgb '#a04418', $shares using 1:2:4 with labels offset 2.4,0.8\n";
