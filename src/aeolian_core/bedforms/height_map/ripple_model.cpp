@@ -97,6 +97,8 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
   if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
     throw Error("ripple model: a height is not finite");
   if (stays_flat(height)) {
+    // A law refuses what it cannot tell of.
+    if (parameters_.wavelength_law) parameters_.wavelength_law->final_wavelength(forcing);
     clock_.time += duration;
     return {TileMask(geometry),
             flat_balance(geometry, forcing, duration, parameters_.border == Border::open)};

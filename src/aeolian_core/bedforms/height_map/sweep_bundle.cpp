@@ -70,15 +70,7 @@ AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, co
   for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = (1.0 / 6) * (a[i] + b[i] + 4 * c[i]);
 }
 
-struct LineRange {
-  int begin, end;
-};
-
-/// Lines that are on an open grid at a station.
-LineRange lines_on_grid(const WindFrame& frame, int station) {
-  const int offset = frame.place(std::clamp(station, 0, frame.stations() - 1)).offset;
-  return {-offset, frame.rows() + 1 - offset};
-}
+using LineRange = WindFrame::LineRange;
 
 class Bundle {
  public:
@@ -175,29 +167,19 @@ class Bundle {
   bool set_live(int station) {
     live_ = {0, end_ - begin_};
     if (!frame_.periodic()) {
-      const LineRange now = lines_on_grid(frame_, station);
-      const LineRange last = lines_on_grid(frame_, station - stage_stations);
+      const LineRange now = frame_.lines_at(station);
+      const LineRange last = frame_.lines_at(station - stage_stations);
       live_.begin = std::max(live_.begin, std::min(now.begin, last.begin) - begin_);
       live_.end = std::min(live_.end, std::max(now.end, last.end) - begin_);
     }
     swept_ = {live_.begin & ~3, std::min(most_lines, (live_.end + 3) & ~3)};
     return live_.begin < live_.end;
   }
-  /// Calls work(begin, end, q of the line `begin`) for the stretches of given lines that lie side by side.
+  /// WindFrame's, of lines counted from this bundle's first.
   template <class Work>
   void for_stretches(int station, int begin, int end, Work&& work) const {
-    const int offset = frame_.place(station).offset;
-    if (!frame_.periodic()) {
-      work(begin, end, begin_ + begin + offset);
-      return;
-    }
-    const int rows = frame_.rows();
-    while (begin < end) {
-      const int q = wrapped(begin_ + begin + offset, rows);
-      const int count = std::min(end - begin, rows - q);
-      work(begin, begin + count, q);
-      begin += count;
-    }
+    frame_.for_stretches(station, {begin_ + begin, begin_ + end},
+                         [&](int from, int to, int q) { work(from - begin_, to - begin_, q); });
   }
 
   /// Asks for what a later station needs: stations lie too far apart for the memory to guess it.
@@ -359,18 +341,11 @@ class Bundle {
   /// Visits this bundle's lines that are on an open grid at one station and not at the other.
   template <class Visit>
   void for_difference(int station, int other, Visit&& visit) const {
-    if (frame_.drift() == 0) return;
-    const LineRange with = lines_on_grid(frame_, station);
-    const LineRange without = lines_on_grid(frame_, other);
-    if (with.begin == without.begin) return;
-    for (int line = std::max(with.begin, begin_); line < std::min({with.end, without.begin, end_}); ++line)
-      visit(line - begin_);
-    for (int line = std::max({with.begin, without.end, begin_}); line < std::min(with.end, end_); ++line)
-      visit(line - begin_);
+    frame_.for_difference(station, other, {begin_, end_}, [&](int line) { visit(line - begin_); });
   }
   template <class Visit>
   void for_all(int station, Visit&& visit) const {
-    const LineRange with = lines_on_grid(frame_, station);
+    const LineRange with = frame_.lines_at(station);
     for (int line = std::max(with.begin, begin_); line < std::min(with.end, end_); ++line)
       visit(line - begin_);
   }
@@ -408,7 +383,7 @@ class Bundle {
     int begin = live_.begin;
     int end = live_.end;
     if (!frame_.periodic()) {
-      const LineRange now = lines_on_grid(frame_, station);
+      const LineRange now = frame_.lines_at(station);
       begin = std::max(now.begin - begin_, 0);
       end = std::min(now.end - begin_, end_ - begin_);
     }
