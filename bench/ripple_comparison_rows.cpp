@@ -1,12 +1,12 @@
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 
 #include "ripple_rows.hpp"
 
 #include "aeolian_core/bedforms/bedforms.hpp"
 #include "aeolian_core/bedforms/theory/independent_members.hpp"
 #include "aeolian_core/measure/ripple_tracking.hpp"
+#include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 namespace {
