@@ -10,6 +10,7 @@ int main() {
   aeolian::theory_rows(table);
   aeolian::lattice_rows(table);
   aeolian::model_rows(table);
+  aeolian::comparison_rows(table);
   aeolian::tracking_rows(table);
   aeolian::sorting_rows(table);
   fmt::print(

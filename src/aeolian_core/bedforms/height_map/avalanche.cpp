@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "aeolian_core/bedforms/height_map/repose.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
@@ -14,34 +15,7 @@ namespace {
 constexpr int patch_rows = ActivePatches::rows_each;
 constexpr int strip = 32;  ///< stations that are relaxed by themselves before what crosses their ends
 
-/// Slopes are let alone until they exceed repose by this share, and come to rest as much below it.
-constexpr double slack = 0.01;
-
-const double diagonal = std::sqrt(2.0);
-
-/// What two cells exchange whose difference of height is given, so that they come to rest.
-AEOLIAN_INLINE double slide(double difference, double straight, double share) {
-  const double begin = straight * (1 + slack);
-  const double rest = straight * (1 - slack);
-  const double down = difference > begin ? difference - rest : 0;
-  const double up = difference < -begin ? difference + rest : 0;
-  return share * (down + up);
-}
-
 AEOLIAN_INLINE double size(double x) { return x < 0 ? -x : x; }
-
-/// Whether any slope among two stations' rows 0 ... count is too steep; `ahead` of these rows have one more.
-AEOLIAN_KERNEL bool any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,
-                              const double* __restrict h, const double* __restrict behind) {
-  const double along = straight * (1 + slack);
-  const double oblique = along * 1.4142135623730951;
-  std::int64_t any = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) any |= size(behind[i] - h[i]) > along;
-  for (std::ptrdiff_t i = 0; i < ahead; ++i)
-    any |= (size(h[i + 1] - h[i]) > along) | (size(behind[i + 1] - h[i]) > oblique) |
-           (size(behind[i] - h[i + 1]) > oblique);
-  return any != 0;
-}
 
 /// Lowers and raises the limits of heights and floors by those of some rows. Whether all are open.
 AEOLIAN_KERNEL bool lies_deep(std::ptrdiff_t count, const double* __restrict h,
@@ -111,7 +85,7 @@ bool Avalanches::steep(const FrameField& height, int station, int patch) const {
   const double* const behind = height.at(next(station));
   if (any_steep(count, last ? count - 1 : count, straight_, h + begin, behind + begin)) return true;
   if (!last || !periodic_) return false;
-  const double along = straight_ * (1 + slack);
+  const double along = straight_ * (1 + repose_slack);
   const int end = rows_ - 1;
   return std::abs(h[0] - h[end]) > along || std::abs(behind[0] - h[end]) > along * diagonal ||
          std::abs(behind[end] - h[0]) > along * diagonal;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aeolian_core/surface/kernel.hpp"
-
 namespace aeolian {
 namespace {
 
@@ -38,15 +36,6 @@ struct HardGroundLines {
     return open2[i] > 0 ? limited : enters;
   }
 };
-
-/// A flux after hops have ended early or late: on slopes near repose over cells longer than hops the shift,
-/// of first order in the slope, would turn it round or make it many times what it is.
-AEOLIAN_INLINE double shifted(double flux, double shift) {
-  const double raw = flux + shift;
-  const double positive = raw > 0 ? raw : 0;
-  const double most = 3 * flux;
-  return positive < most ? positive : most;
-}
 
 /// Twice the exposure of either half of a stretch between two stations.
 struct Halves {
@@ -248,6 +237,13 @@ void HopStage::begin(const HopLaw& law, int line, double height, double share) {
   memory_.heights[line] = flux * height;
   for (auto& through : memory_.flux) through[line] = flux;
   memory_.out[now_][line] = flux;
+}
+
+void HopStage::shade(int line, double height) {
+  for (auto& envelope : memory_.envelope) {
+    if (height > envelope[line]) memory_.exposure[line] = 0;
+    envelope[line] = std::max(envelope[line], height);
+  }
 }
 
 }  // namespace aeolian

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "aeolian_core/bedforms/height_map/impact_angles.hpp"
+#include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
 
@@ -28,6 +29,15 @@ struct HopLaw {
 
   double least_drop() const;
 };
+
+/// A flux after hops have ended early or late: on slopes near repose over cells longer than hops the shift,
+/// of first order in the slope, would turn it round or make it many times what it is.
+AEOLIAN_INLINE double shifted(double flux, double shift) {
+  const double raw = flux + shift;
+  const double positive = raw > 0 ? raw : 0;
+  const double most = 3 * flux;
+  return positive < most ? positive : most;
+}
 
 /// Lines side by side that are swept from station to station, one array each for what a line remembers.
 ///
@@ -77,6 +87,9 @@ class HopStage {
   /// A line begins at station k, just swept, with the exposure of a flat bed at this height and a share of
   /// its flux.
   void begin(const HopLaw& law, int line, double height, double share);
+
+  /// What a line has just begun behind shades it from this height.
+  void shade(int line, double height);
 
   /// Largest flux on its way among some lines.
   double strongest_flux(int begin, int end) const;

@@ -51,12 +51,13 @@ ImpactSweep::ImpactSweep(const WindFrame& frame, const ImpactAngles& angles, dou
       seam_in_(static_cast<std::size_t>(frame.rows()) + 1),
       seam_out_(static_cast<std::size_t>(frame.rows()) + 1) {}
 
-/// In stations, at most all.
+/// In stations, at most as many as a line visits.
 int ImpactSweep::longest_shadow(const FrameField& bed, const FrameField& dune) const {
   double low = bed.at(0)[0] - dune.at(0)[0];
   double high = low;
   for (int i = 0; i < frame_.stations(); ++i) relief(frame_.rows(), bed.at(i), dune.at(i), low, high);
-  return static_cast<int>(std::min<double>(frame_.stations(), std::ceil((high - low) / law_.least_drop())));
+  return static_cast<int>(
+      std::min<double>(frame_.longest_way(), std::ceil((high - low) / law_.least_drop())));
 }
 
 /// Puts right at the last station of a periodic bed what the first round left of the difference between what

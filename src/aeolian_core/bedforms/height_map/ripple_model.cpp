@@ -9,14 +9,12 @@
 #include "aeolian_core/bedforms/height_map/ripple_motion.hpp"
 #include "aeolian_core/bedforms/height_map/sand_reach.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* name, double value, const char* range) {
-  if (!allowed)
-    throw Error("ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
-}
+constexpr Require require{"ripple model"};
 
 /// Writes heights into the known cells of a layer of floats. What rounding takes from a cell is given to the
 /// next known one, so that the layer's sum is right to the rounding of one cell.
@@ -27,6 +25,18 @@ void store(const std::vector<double>& height, HeightMap::Layer& layer) {
     layer[i] = static_cast<float>(height[i] + carry);
     carry += height[i] - static_cast<double>(layer[i]);
   }
+}
+
+/// What moves on a flat bed, and crosses its borders if they are open.
+VolumeBalance flat_balance(const GridGeometry& g, const Forcing& forcing, double duration, bool open) {
+  const double depth = forcing.erosion_rate() * duration;
+  VolumeBalance volume;
+  volume.moved = depth * g.length_x() * g.length_y();
+  if (open)
+    volume.inflow = volume.outflow = depth * forcing.reptation_length *
+                                     (std::abs(std::cos(forcing.direction)) * g.length_y() +
+                                      std::abs(std::sin(forcing.direction)) * g.length_x());
+  return volume;
 }
 
 constexpr int steps_per_estimate = 16;      ///< of their error, which costs one step
@@ -88,7 +98,22 @@ BedChange RippleModel::advance(const GridGeometry& geometry, std::vector<double>
                 std::to_string(geometry.size()) + " cells");
   if (!std::all_of(height.begin(), height.end(), [](double h) { return std::isfinite(h); }))
     throw Error("ripple model: a height is not finite");
+  if (stays_flat(height)) {
+    // A law refuses what it cannot tell of.
+    if (parameters_.wavelength_law) parameters_.wavelength_law->final_wavelength(forcing);
+    clock_.time += duration;
+    return {TileMask(geometry),
+            flat_balance(geometry, forcing, duration, parameters_.border == Border::open)};
+  }
   return advance(geometry, height, nullptr, nullptr, forcing, duration);
+}
+
+/// Whether nothing changes, since as much comes down everywhere as is struck: on flat sand that flat sand
+/// supplies.
+bool RippleModel::stays_flat(const std::vector<double>& height) const {
+  return (parameters_.border == Border::periodic || parameters_.inflow == Inflow::flat_bed) &&
+         parameters_.stochastic_share == 0 &&
+         std::all_of(height.begin(), height.end(), [&](double h) { return h == height.front(); });
 }
 
 /// Makes steps for so long [s], or until sand may leave the part of the grid in motion. Returns the time

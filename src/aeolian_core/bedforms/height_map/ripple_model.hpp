@@ -89,6 +89,7 @@ class RippleModel : public BedModel {
                     const std::vector<double>* floor, const std::vector<double>* open, const Forcing& forcing,
                     double duration);
 
+  bool stays_flat(const std::vector<double>& height) const;
   double run(RippleMotion& motion, const SandReach& reach, double left);
 
   RippleParameters parameters_;

@@ -70,15 +70,7 @@ AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, co
   for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = (1.0 / 6) * (a[i] + b[i] + 4 * c[i]);
 }
 
-struct LineRange {
-  int begin, end;
-};
-
-/// Lines that are on an open grid at a station.
-LineRange lines_on_grid(const WindFrame& frame, int station) {
-  const int offset = frame.place(std::clamp(station, 0, frame.stations() - 1)).offset;
-  return {-offset, frame.rows() + 1 - offset};
-}
+using LineRange = WindFrame::LineRange;
 
 class Bundle {
  public:
@@ -89,6 +81,7 @@ class Bundle {
     if (task_.ground) return run_on_ground();
     for (int station = task_.first; station < frame_.stations() + stage_stations; ++station) {
       if (!set_live(station)) continue;
+      fetch_ahead(station);
       read(station);
       for (int s = 0; s < stages; ++s) run_stage(s, station - s * lag, task_.first);
       write(station - stage_stations);
@@ -132,6 +125,7 @@ class Bundle {
         for (HopStage& stage : stage_) stage.forget_shadows();
       }
       if (!set_live(station)) continue;
+      fetch_ahead(station);
       read(station);
       for (int s = 0; s < stages; ++s) {
         const int k = station - s * lag;
@@ -173,28 +167,38 @@ class Bundle {
   bool set_live(int station) {
     live_ = {0, end_ - begin_};
     if (!frame_.periodic()) {
-      const LineRange now = lines_on_grid(frame_, station);
-      const LineRange last = lines_on_grid(frame_, station - stage_stations);
+      const LineRange now = frame_.lines_at(station);
+      const LineRange last = frame_.lines_at(station - stage_stations);
       live_.begin = std::max(live_.begin, std::min(now.begin, last.begin) - begin_);
       live_.end = std::min(live_.end, std::max(now.end, last.end) - begin_);
     }
     swept_ = {live_.begin & ~3, std::min(most_lines, (live_.end + 3) & ~3)};
     return live_.begin < live_.end;
   }
-  /// Calls work(begin, end, q of the line `begin`) for the stretches of given lines that lie side by side.
+  /// WindFrame's, of lines counted from this bundle's first.
   template <class Work>
   void for_stretches(int station, int begin, int end, Work&& work) const {
-    const int offset = frame_.place(station).offset;
-    if (!frame_.periodic()) {
-      work(begin, end, begin_ + begin + offset);
-      return;
-    }
-    const int rows = frame_.rows();
-    while (begin < end) {
-      const int q = wrapped(begin_ + begin + offset, rows);
-      const int count = std::min(end - begin, rows - q);
-      work(begin, begin + count, q);
-      begin += count;
+    frame_.for_stretches(station, {begin_ + begin, begin_ + end},
+                         [&](int from, int to, int q) { work(from - begin_, to - begin_, q); });
+  }
+
+  /// Asks for what a later station needs: stations lie too far apart for the memory to guess it.
+  void fetch_ahead(int station) const {
+    constexpr int ahead = 6;
+    constexpr int line_of_cache = 8;
+    const int where = station + ahead;
+    if (where < 0 || where >= frame_.stations()) return;
+    const int q = begin_ + live_.begin + frame_.place(where).offset;
+    const int first = std::clamp(frame_.periodic() ? wrapped(q, frame_.rows()) : q, 0, frame_.rows());
+    const int last = std::min(first + live_.end - live_.begin, frame_.rows());
+    for (int at = first; at <= last; at += line_of_cache) {
+      __builtin_prefetch(task_.bed.at(where) + at);
+      __builtin_prefetch(task_.dune.at(where) + at);
+      __builtin_prefetch(task_.erosion.at(where) + at, 1);
+      __builtin_prefetch(task_.deposition.at(where) + at, 1);
+      if (!task_.ground) continue;
+      __builtin_prefetch(task_.ground->floor.at(where) + at);
+      __builtin_prefetch(task_.ground->open.at(where) + at);
     }
   }
 
@@ -319,23 +323,29 @@ class Bundle {
     if (task_.supply && share > 0)
       share *= task_.supply(station, begin_ + line + frame_.place(station).offset);
     stage_[at(s)].begin(law_, line, height(s, station)[line], share);
+    if (task_.ground && !frame_.periodic()) stage_[at(s)].shade(line, rock_beside(station, line));
+  }
+
+  /// The highest rock, above the dune, some rows to either side of a line on the grid: it is taken to stand
+  /// before the border too, or a pit there would be struck however deep it is.
+  double rock_beside(int station, int line) const {
+    const double* const floor = task_.ground->floor.at(station);
+    const double* const dune = task_.dune.at(station);
+    const int q = begin_ + line + frame_.place(station).offset;
+    double highest = HardGround::bottomless;
+    for (int row = q - FrameField::pad; row < q + FrameField::pad; ++row)
+      highest = std::max(highest, floor[row] - dune[row]);
+    return highest;
   }
 
   /// Visits this bundle's lines that are on an open grid at one station and not at the other.
   template <class Visit>
   void for_difference(int station, int other, Visit&& visit) const {
-    if (frame_.drift() == 0) return;
-    const LineRange with = lines_on_grid(frame_, station);
-    const LineRange without = lines_on_grid(frame_, other);
-    if (with.begin == without.begin) return;
-    for (int line = std::max(with.begin, begin_); line < std::min({with.end, without.begin, end_}); ++line)
-      visit(line - begin_);
-    for (int line = std::max({with.begin, without.end, begin_}); line < std::min(with.end, end_); ++line)
-      visit(line - begin_);
+    frame_.for_difference(station, other, {begin_, end_}, [&](int line) { visit(line - begin_); });
   }
   template <class Visit>
   void for_all(int station, Visit&& visit) const {
-    const LineRange with = lines_on_grid(frame_, station);
+    const LineRange with = frame_.lines_at(station);
     for (int line = std::max(with.begin, begin_); line < std::min(with.end, end_); ++line)
       visit(line - begin_);
   }
@@ -373,7 +383,7 @@ class Bundle {
     int begin = live_.begin;
     int end = live_.end;
     if (!frame_.periodic()) {
-      const LineRange now = lines_on_grid(frame_, station);
+      const LineRange now = frame_.lines_at(station);
       begin = std::max(now.begin - begin_, 0);
       end = std::min(now.end - begin_, end_ - begin_);
     }

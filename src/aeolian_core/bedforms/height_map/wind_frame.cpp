@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
 
 namespace aeolian {
 
@@ -72,14 +75,22 @@ WindFrame::Place WindFrame::computed_place(int station) const {
   return {static_cast<int>(row), std::max(0.0, at - row)};
 }
 
-/// Calls work(station, row, the cell's index in the grid), by blocks that fit the cache both ways.
+int WindFrame::longest_way() const {
+  if (!periodic_) return stations_;
+  const int moved = computed_place(stations_).offset - computed_place(0).offset;
+  return stations_ * (rows_ / std::gcd(rows_, moved));
+}
+
+/// Calls work(station, row, the cell's index in the grid), by blocks that fit the cache both ways, in
+/// parallel.
 template <class Work>
 void WindFrame::for_cells(Work&& work) const {
   constexpr int block = 16;
   const auto nx = static_cast<std::size_t>(nx_);
   const int first_station = transposed_ ? cells_.y0 : cells_.x0;
   const int first_row = transposed_ ? cells_.x0 : cells_.y0;
-  for (int from = 0; from < stations_; from += block)
+  tbb::parallel_for(0, (stations_ + block - 1) / block, [&](int n) {
+    const int from = n * block;
     for (int row_from = 0; row_from < rows_; row_from += block)
       for (int i = from; i < std::min(from + block, stations_); ++i) {
         const auto along = static_cast<std::size_t>(first_station + (reversed_ ? stations_ - 1 - i : i));
@@ -88,6 +99,7 @@ void WindFrame::for_cells(Work&& work) const {
           work(i, row, transposed_ ? along * nx + across : across * nx + along);
         }
       }
+  });
 }
 
 void WindFrame::enter(const std::vector<double>& grid, FrameField& frame) const {

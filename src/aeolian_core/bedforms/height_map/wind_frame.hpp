@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "aeolian_core/bedforms/height_map/frame_field.hpp"
+#include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/grid_geometry.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
@@ -53,9 +55,47 @@ class WindFrame {
     return computed_place(station);
   }
 
+  /// Stations after which a line has been everywhere that it goes: on a periodic grid it may have to go round
+  /// several times until it meets itself.
+  int longest_way() const;
+
   /// Lines that have part in the grid: first_line() <= j < end_line().
   int first_line() const { return first_line_; }
   int end_line() const { return end_line_; }
+
+  struct LineRange {
+    int begin, end;
+  };
+  /// Lines that are on an open grid at a station; beyond it, at its nearest station.
+  LineRange lines_at(int station) const {
+    const int offset = place(std::clamp(station, 0, stations_ - 1)).offset;
+    return {-offset, rows_ + 1 - offset};
+  }
+  /// Calls visit(line) for those of the lines [begin, end) that are on an open grid at one station and not at
+  /// the other.
+  template <class Visit>
+  void for_difference(int station, int other, LineRange lines, Visit&& visit) const {
+    const LineRange with = lines_at(station);
+    const LineRange without = lines_at(other);
+    if (with.begin == without.begin) return;
+    for (int j = std::max(with.begin, lines.begin); j < std::min({with.end, without.begin, lines.end}); ++j)
+      visit(j);
+    for (int j = std::max({with.begin, without.end, lines.begin}); j < std::min(with.end, lines.end); ++j)
+      visit(j);
+  }
+  /// Calls work(begin, end, q of the line `begin`) for the stretches of given lines that lie side by side at
+  /// a station: a periodic grid ends where it begins.
+  template <class Work>
+  void for_stretches(int station, LineRange lines, Work&& work) const {
+    const int offset = place(station).offset;
+    if (!periodic_) return work(lines.begin, lines.end, lines.begin + offset);
+    while (lines.begin < lines.end) {
+      const int q = wrapped(lines.begin + offset, rows_);
+      const int count = std::min(lines.end - lines.begin, rows_ - q);
+      work(lines.begin, lines.begin + count, q);
+      lines.begin += count;
+    }
+  }
 
   /// Copies a grid's values (x fastest; of a part those of the whole grid) into the frame and back. The grid
   /// has its size in both.

@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool holds, const char* name, double value, const char* allowed) {
-  if (!holds)
-    throw Error(std::string("Haff's bed: ") + name + " is " + std::to_string(value) + ", must be " + allowed);
-}
+constexpr Require require{"Haff's bed"};
 
 bool is_angle(double value) { return value > 0 && value < M_PI / 2; }
 
@@ -69,9 +67,8 @@ int HaffBed::wrapped(int bin) const {
 }
 
 void HaffBed::advance(double impacts_per_diameter) {
-  if (!(impacts_per_diameter >= 0 && std::isfinite(impacts_per_diameter)))
-    throw Error("Haff's bed: impacts per diameter are " + std::to_string(impacts_per_diameter) +
-                ", must be zero or more");
+  require(impacts_per_diameter >= 0 && std::isfinite(impacts_per_diameter), "number of impacts per diameter",
+          impacts_per_diameter, "zero or more and finite");
   owed_ += impacts_per_diameter * length();
   for (; owed_ >= 1; owed_ -= 1, ++impacts_) {
     const int bin = struck();

@@ -7,9 +7,12 @@
 
 #include "aeolian_core/bedforms/wrapped.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
+
+constexpr Require require{"lattice bed"};
 
 /// How the cells of a grid overlap the columns of a periodic lattice along one axis.
 struct Overlap {
@@ -46,14 +49,10 @@ LatticeBed::LatticeBed(int nx, int ny, double spacing, double angle_of_repose, s
   if (nx < 4 || ny < 4 || nx % 2 != 0 || ny % 2 != 0 || nx > 30000 || ny > 30000)
     throw Error("lattice bed: " + std::to_string(nx) + " x " + std::to_string(ny) +
                 " columns, both must be even and 4 to 30000");
-  if (!(spacing > 0) || !std::isfinite(spacing))
-    throw Error("lattice bed: spacing is " + std::to_string(spacing) + " m, must be positive");
-  if (!(angle_of_repose > 0.1 && angle_of_repose < 1.4))
-    throw Error("lattice bed: angle of repose is " + std::to_string(angle_of_repose) +
-                " rad, must be 0.1 to 1.4");
-  if (!(roughening >= 0 && roughening <= 1000))
-    throw Error("lattice bed: roughening is " + std::to_string(roughening) +
-                " moves per column, must be 0 to 1000");
+  require(spacing > 0 && std::isfinite(spacing), "spacing", spacing, "positive and finite [m]");
+  require(angle_of_repose > 0.1 && angle_of_repose < 1.4, "angle of repose", angle_of_repose,
+          "0.1 to 1.4 rad");
+  require(roughening >= 0 && roughening <= 1000, "roughening", roughening, "0 to 1000 moves per column");
 
   height_.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   for (int y = 0; y < ny; ++y)

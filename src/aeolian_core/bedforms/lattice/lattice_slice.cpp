@@ -8,15 +8,12 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/kernel.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool holds, const char* name, double value, const char* allowed) {
-  if (!holds)
-    throw Error(std::string("lattice slice: ") + name + " is " + std::to_string(value) + ", must be " +
-                allowed);
-}
+constexpr Require require{"lattice slice"};
 
 void check(const SliceParameters& p) {
   require(p.columns >= 64 && p.columns <= 1'000'000 && p.columns % 64 == 0, "number of columns", p.columns,

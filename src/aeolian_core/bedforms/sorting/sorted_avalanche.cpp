@@ -6,41 +6,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include "aeolian_core/surface/kernel.hpp"
+#include "aeolian_core/bedforms/height_map/repose.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr int patch_rows = 32;
 constexpr int strip = 32;  ///< stations that are relaxed by themselves before what crosses their ends
-
-/// Slopes are let alone until they exceed repose by this share, and come to rest as much below it.
-constexpr double slack = 0.01;
-
-const double diagonal = std::sqrt(2.0);
-
-/// What two cells exchange whose difference of height is given, so that they come to rest.
-double slide(double difference, double straight, double share) {
-  const double rest = straight * (1 - slack);
-  if (difference > straight * (1 + slack)) return share * (difference - rest);
-  if (difference < -straight * (1 + slack)) return share * (difference + rest);
-  return 0;
-}
-
-AEOLIAN_INLINE double size(double x) { return x < 0 ? -x : x; }
-
-/// Whether any slope among two stations' rows 0 ... count is too steep; `ahead` of these rows have one more.
-AEOLIAN_KERNEL bool any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,
-                              const double* __restrict h, const double* __restrict behind) {
-  const double along = straight * (1 + slack);
-  const double oblique = along * 1.4142135623730951;
-  std::int64_t any = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) any |= size(behind[i] - h[i]) > along;
-  for (std::ptrdiff_t i = 0; i < ahead; ++i)
-    any |= (size(h[i + 1] - h[i]) > along) | (size(behind[i + 1] - h[i]) > oblique) |
-           (size(behind[i] - h[i + 1]) > oblique);
-  return any != 0;
-}
 
 }  // namespace
 

@@ -5,14 +5,12 @@
 #include <string>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* name, double value, const char* range) {
-  if (!allowed)
-    throw Error("sorted bed: " + std::string(name) + " is " + std::to_string(value) + ", must be " + range);
-}
+constexpr Require require{"sorted bed"};
 
 std::vector<double> heights_of(const HeightMap& map) {
   const HeightMap::Layer whole = filled(map.geometry(), map.layer(layer::elevation));

@@ -49,7 +49,7 @@ AEOLIAN_KERNEL void carry(const HopLaw& given, Part given_part, double largest, 
     grains[i] = f;
     heights[i] = g;
     const double through =
-        f + law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f);
+        shifted(f, law.shortening * (g - (law.height_before * h1[i] + law.height_behind * h[i]) * f));
     const double raw =
         law.flux_here * flux[i] + law.flux_downwind * through + law.flux_upwind * flux_before[i];
     flux_before[i] = through;

@@ -12,15 +12,12 @@
 #include "aeolian_core/bedforms/sorting/sorted_slope_flux.hpp"
 #include "aeolian_core/bedforms/sorting/sub_grid_roughness.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
 
-void require(bool allowed, const char* name, double value, const char* range) {
-  if (!allowed)
-    throw Error("sorted ripple model: " + std::string(name) + " is " + std::to_string(value) + ", must be " +
-                range);
-}
+constexpr Require require{"sorted ripple model"};
 
 bool same_bits(const HeightMap::Layer& a, const HeightMap::Layer& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
@@ -121,13 +118,14 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   const ActivePatches everywhere(frame.stations(), frame.rows());
 
   const std::vector<double> start = bed.height;
-  const double volume_before = bed.volume();
   const double coarse_before = bed.coarse_volume();
   FrameField dune, height;
   FrameField activity(frame.stations(), frame.rows());
   frame.enter(dune_surface(geometry, bed.height, p.relief_scale, periodic), dune);
   frame.enter(bed.height, height);
   ActiveLayer layer(frame, bed);
+  avalanches.run(height, layer);
+  layer.settle();
 
   SortedChange change{TileMask(geometry), {}, {}};
   const double thickness = bed.layers.active;
@@ -161,7 +159,9 @@ SortedChange SortedRippleModel::advance(SortedBed& bed, const SortedForcing& for
   frame.leave(height, bed.height);
   layer.leave();
   change.coarse.change = bed.coarse_volume() - coarse_before;
-  change.fine.change = bed.volume() - volume_before - change.coarse.change;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    change.fine.change += (bed.height[i] - start[i]) * cell * cell;
+  change.fine.change -= change.coarse.change;
   change.active = changed_tiles(geometry, start, bed.height);
   return change;
 }

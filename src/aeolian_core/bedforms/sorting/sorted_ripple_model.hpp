@@ -33,9 +33,9 @@ struct SortedChange {
 ///     L df_k/dt = D_k - K_k f_k E - div(f_k q) - f_I dh/dt,   dh/dt = sum_k (D_k - K_k f_k E) - div q,
 ///
 /// where D_k are grains of hops a_k that come down, q the slope flux and f_I the fraction of the layer where
-/// the bed rises, of the stratum below where it falls (Hirano 1971). One size alone, or two alike, behave as
-/// RippleModel. Sand has no hard ground here: a map with a layer `ground` is refused. Unknown cells are taken
-/// for sand that lies between their neighbours.
+/// the bed rises, of the stratum below where it falls (Hirano 1971). What is too steep at the beginning
+/// slides first. One size alone, or two alike, behave as RippleModel. Sand has no hard ground here: a map
+/// with a layer `ground` is refused. Unknown cells are taken for sand that lies between their neighbours.
 ///
 /// Linear theory while the composition stays as it is: each size's growth rate and phase speed (RippleModel)
 /// weighted with its fraction; see sorted_growth.hpp for the layer's own part.

@@ -100,12 +100,6 @@ SortedSweep::SortedSweep(const WindFrame& frame, const std::array<SizeLaw, sizes
     for (FrameField& field : *fields) field = FrameField(frame.stations(), frame.rows());
 }
 
-/// Lines on an open grid at a station.
-SortedSweep::Stretch SortedSweep::on_grid(int station) const {
-  const int offset = frame_.place(std::clamp(station, 0, frame_.stations() - 1)).offset;
-  return {-offset, frame_.rows() + 1 - offset};
-}
-
 /// Some lines beside one another, swept from the first station to the last; as ImpactSweep does it.
 class SortedSweep::Bundle {
  public:
@@ -168,29 +162,19 @@ class SortedSweep::Bundle {
   bool set_live(int station) {
     live_ = {0, end_ - begin_};
     if (!frame_.periodic()) {
-      const Stretch now = sweep_.on_grid(station);
-      const Stretch last = sweep_.on_grid(station - stages * lag);
+      const WindFrame::LineRange now = frame_.lines_at(station);
+      const WindFrame::LineRange last = frame_.lines_at(station - stages * lag);
       live_.begin = std::max(live_.begin, std::min(now.begin, last.begin) - begin_);
       live_.end = std::min(live_.end, std::max(now.end, last.end) - begin_);
     }
     return live_.begin < live_.end;
   }
 
-  /// Calls work(begin, end, q of the line `begin`) for the stretches of given lines that lie side by side.
+  /// WindFrame's, of lines counted from this bundle's first.
   template <class Work>
   void for_stretches(int station, int begin, int end, Work&& work) const {
-    const int offset = frame_.place(station).offset;
-    if (!frame_.periodic()) {
-      work(begin, end, begin_ + begin + offset);
-      return;
-    }
-    const int rows = frame_.rows();
-    while (begin < end) {
-      const int q = wrapped(begin_ + begin + offset, rows);
-      const int count = std::min(end - begin, rows - q);
-      work(begin, begin + count, q);
-      begin += count;
-    }
+    frame_.for_stretches(station, {begin_ + begin, begin_ + end},
+                         [&](int from, int to, int q) { work(from - begin_, to - begin_, q); });
   }
 
   /// Heights and fractions of the lines at a station. Beyond an open grid the bed goes on as it ends.
@@ -237,16 +221,11 @@ class SortedSweep::Bundle {
   /// Visits this bundle's lines that are on an open grid at one station and not at the other.
   template <class Visit>
   void for_difference(int station, int other, Visit&& visit) const {
-    const Stretch with = sweep_.on_grid(station);
-    const Stretch without = sweep_.on_grid(other);
-    for (int line = std::max(with.begin, begin_); line < std::min({with.end, without.begin, end_}); ++line)
-      visit(line - begin_);
-    for (int line = std::max({with.begin, without.end, begin_}); line < std::min(with.end, end_); ++line)
-      visit(line - begin_);
+    frame_.for_difference(station, other, {begin_, end_}, [&](int line) { visit(line - begin_); });
   }
   template <class Visit>
   void for_all(int station, Visit&& visit) const {
-    const Stretch with = sweep_.on_grid(station);
+    const WindFrame::LineRange with = frame_.lines_at(station);
     for (int line = std::max(with.begin, begin_); line < std::min(with.end, end_); ++line)
       visit(line - begin_);
   }
@@ -290,7 +269,7 @@ class SortedSweep::Bundle {
     int begin = live_.begin;
     int end = live_.end;
     if (!frame_.periodic()) {
-      const Stretch now = sweep_.on_grid(station);
+      const WindFrame::LineRange now = frame_.lines_at(station);
       begin = std::max(now.begin - begin_, 0);
       end = std::min(now.end - begin_, end_ - begin_);
     }
@@ -312,7 +291,7 @@ class SortedSweep::Bundle {
   const Task& task_;
   int begin_, end_;
   Mobility mobility_;
-  Stretch live_{};
+  WindFrame::LineRange live_{};
   Balance balance_;
   std::array<SortedHopStage, stages> stage_;
   /// What the stages work with, at the last stations.
@@ -352,7 +331,8 @@ void SortedSweep::run(const FrameField& bed, const FrameField& dune, const Frame
       widen(frame_.rows(), bed.at(i), dune.at(i), low.data(), high.data());
     const double relief =
         *std::max_element(high.begin(), high.end()) - *std::min_element(low.begin(), low.end());
-    const double shadow = std::min<double>(frame_.stations(), std::ceil(relief / law_[0].hop.least_drop()));
+    const double shadow =
+        std::min<double>(frame_.longest_way(), std::ceil(relief / law_[0].hop.least_drop()));
     const double carried = std::max(law_[0].hop.carried, law_[1].hop.carried);
     first = -static_cast<int>(shadow + std::ceil(24 / -std::log(carried))) - stages * lag;
   }

@@ -36,9 +36,6 @@ class SortedSweep {
   double outflow(int size) const { return outflow_[static_cast<std::size_t>(size)]; }
 
  private:
-  struct Stretch {
-    int begin, end;  ///< lines j
-  };
   struct Task {
     const FrameField& bed;
     const FrameField& dune;
@@ -50,7 +47,6 @@ class SortedSweep {
   };
   class Bundle;
 
-  Stretch on_grid(int station) const;
   void close_period();
 
   const WindFrame& frame_;

@@ -139,5 +139,46 @@ TEST(RippleGroundTest, bare_ground_costs_nothing_and_changes_nothing) {
   }
 }
 
+TEST(RippleGroundTest, pits_of_unknown_floor_among_rock_are_not_dug_ever_deeper_at_the_upwind_border) {
+  const GridGeometry g(0, 0, 0.005, 40, 40);
+  for (const double direction : {0.0, 0.4, 1.2}) {
+    HeightMap map(g);
+    map.add(layer::elevation, 0.0F);
+    HeightMap::Layer& ground = map.add(layer::ground, 0.0F);
+    RandomStream random(3, 0);
+    for (float& floor : ground)
+      if (random.uniform() < 0.1) floor = HeightMap::unknown;
+    RippleParameters p = parameters(Border::open, 0.4, 1);
+    p.lateral_spread = 1;
+    Forcing forcing = wind(direction);
+    forcing.reptation_length = 0.03;
+    RippleModel(p).advance(map, forcing, 500);
+    for (std::size_t i = 0; i < g.size(); ++i)
+      ASSERT_GT(map.layer(layer::elevation)[i], -0.02F) << direction << ": " << i % 40 << ' ' << i / 40;
+  }
+}
+
+TEST(RippleGroundTest, rock_is_not_dug_into_where_lines_go_round_in_shadows_longer_than_a_periodic_map) {
+  const GridGeometry g(0, 0, 0.0005, 40, 40);
+  for (const double direction : {0.1, 2.5}) {
+    HeightMap map(g);
+    HeightMap::Layer& h = map.add(layer::elevation);
+    HeightMap::Layer ground(g.size());
+    const std::vector<double> rough = noise(g, 1e-3);
+    const std::vector<double> strewn = noise(g, 1e-3, 2);
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      ground[i] = static_cast<float>(rough[i] + (i % 137 == 11 && i < 600 ? 0.03 : 0));
+      h[i] = ground[i] + static_cast<float>(std::max(0.0, strewn[i]));
+    }
+    map.add(layer::ground, ground);
+    Forcing forcing = wind(direction);
+    forcing.reptation_length = 0.003;
+    const BedChange change = RippleModel(parameters(Border::periodic, 0.4, 1)).advance(map, forcing, 20);
+    EXPECT_NEAR(change.volume.error(), 0, 1e-12) << direction;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      ASSERT_GE(map.layer(layer::elevation)[i], ground[i] - 1e-8F) << direction << ": cell " << i;
+  }
+}
+
 }  // namespace
 }  // namespace aeolian

@@ -269,6 +269,25 @@ TEST(RippleModelTest, the_bits_are_the_same_for_any_number_of_threads) {
   }
 }
 
+TEST(RippleModelTest, flat_sand_is_skipped_and_booked_as_if_it_were_not) {
+  const GridGeometry g(0, 0, 0.002, 60, 90);
+  for (const Border border : {Border::open, Border::periodic})
+    for (const double direction : {0.0, 0.5, -2.2}) {
+      std::vector<double> flat(g.size(), 0.3);
+      const BedChange skipped = RippleModel(parameters(border, 0.4, 1)).advance(g, flat, wind(direction), 20);
+      EXPECT_EQ(flat, std::vector<double>(g.size(), 0.3));
+      EXPECT_EQ(skipped.active.count(), 0);
+      std::vector<double> nearly(g.size(), 0.3);
+      nearly[1000] += 1e-12;
+      const BedChange run = RippleModel(parameters(border, 0.4, 1)).advance(g, nearly, wind(direction), 20);
+      EXPECT_GT(run.active.count(), 0);
+      EXPECT_NEAR(skipped.volume.moved / run.volume.moved, 1, 1e-6);
+      EXPECT_EQ(skipped.volume.inflow, skipped.volume.outflow);
+      // A run counts what begins and ends in the lines that lie half beside the grid, too.
+      EXPECT_NEAR(skipped.volume.inflow, run.volume.inflow, 0.2 * run.volume.inflow);
+    }
+}
+
 TEST(RippleModelTest, what_is_steeper_than_repose_slides_before_impacts_see_it) {
   const GridGeometry g(0, 0, 0.08, 50, 22);
   std::vector<double> h = noise(g, 0.5);

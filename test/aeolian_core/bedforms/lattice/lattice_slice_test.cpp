@@ -226,23 +226,23 @@ TEST(LatticeSliceTest, refuses_what_is_no_bed) {
     return error_of([&] { LatticeSlice(parameters, 1); });
   };
   EXPECT_EQ(error([](auto& p) { p.columns = 100; }),
-            "lattice slice: number of columns is 100.000000, must be a multiple of 64, at most a million");
+            "lattice slice: number of columns is 100, must be a multiple of 64, at most a million");
   EXPECT_EQ(error([](auto& p) { p.columns = -64; }),
-            "lattice slice: number of columns is -64.000000, must be a multiple of 64, at most a million");
+            "lattice slice: number of columns is -64, must be a multiple of 64, at most a million");
   EXPECT_EQ(error([](auto& p) { p.impact_angle = 10; }),
-            "lattice slice: impact angle [rad] is 10.000000, must be from 0.02 to 1.4");
+            "lattice slice: impact angle [rad] is 10, must be from 0.02 to 1.4");
   EXPECT_EQ(error([](auto& p) { p.forward = 0; }),
-            "lattice slice: forward reptation length is 0.000000, must be 1 or more half-spacings");
+            "lattice slice: forward reptation length is 0, must be 1 or more half-spacings");
   EXPECT_EQ(error([](auto& p) { p.backward = -1; }),
-            "lattice slice: backward reptation length is -1.000000, must be 1 or more half-spacings");
+            "lattice slice: backward reptation length is -1, must be 1 or more half-spacings");
   EXPECT_EQ(error([](auto& p) { p.brink_share = NAN; }),
             "lattice slice: share of brink ejections is nan, must be from 0 to 1");
   EXPECT_EQ(error([](auto& p) { p.brink_range = -1; }),
-            "lattice slice: range of the search for a brink is -1.000000, must be 0 or more half-spacings");
+            "lattice slice: range of the search for a brink is -1, must be 0 or more half-spacings");
   EXPECT_EQ(error([](auto& p) { p.hits_per_point = 0; }),
-            "lattice slice: number of hits per point is 0.000000, must be 1 or more");
+            "lattice slice: number of hits per point is 0, must be 1 or more");
   EXPECT_EQ(error_of([] { LatticeSlice({}, 1).shoot(-1); }),
-            "lattice slice: number of points is -1.000000, must be zero or more");
+            "lattice slice: number of points is -1, must be zero or more");
   EXPECT_EQ(error_of([] { LatticeSlice(small(), {0, 1}, 1); }), "lattice slice: 2 heights for 64 columns");
   std::vector<int> torn(64);
   for (std::size_t i = 1; i < torn.size(); i += 2) torn[i] = 1;

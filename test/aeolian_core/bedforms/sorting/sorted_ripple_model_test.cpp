@@ -187,6 +187,33 @@ TEST(SortedRippleModelTest, cells_of_a_grain_to_a_metre_and_durations_over_decad
       }
 }
 
+/// The greatest difference of height between two sizes that are alike and RippleModel's one on a bed,
+/// relative to how much that changes it.
+double difference_of_sizes_alike(const GridGeometry& g, const std::vector<double>& start, double direction,
+                                 double duration) {
+  SortedRippleParameters p = E::parameters();
+  p.coarse_diameter = E::fine().grain.diameter;
+  p.active_layer = 1e4;  // thick enough not to shorten steps
+  SortedBed two(g, start, p.layers());
+  std::vector<double> one = start;
+  SortedRippleModel(p).advance(two, sorted_forcing(E::fine(direction), p.coarse_diameter), duration);
+  RippleModel(p.ripples).advance(g, one, E::fine(direction), duration);
+  return greatest_difference(one, two.height) / greatest_difference(one, start);
+}
+
+TEST(SortedRippleModelTest, what_is_steeper_than_repose_slides_before_impacts_see_it) {
+  const GridGeometry g(0, 0, 0.08, 50, 22);
+  EXPECT_LT(difference_of_sizes_alike(g, rough_bed(g, 0.5), 1.2, 50), 1e-3);
+}
+
+TEST(SortedRippleModelTest, hops_shorter_than_cells_end_on_slopes_at_repose_as_those_of_one_size) {
+  const GridGeometry g(0, 0, 0.8, 100, 4);
+  std::vector<double> ridges(g.size());
+  for (int y = 0; y < g.ny(); ++y)
+    for (int x = 0; x < g.nx(); ++x) ridges[g.index(x, y)] = 0.4 * std::abs(x % 20 - 10);
+  EXPECT_LT(difference_of_sizes_alike(g, ridges, 0, 1e5), 0.05);
+}
+
 TEST(SortedRippleModelTest, the_bits_are_the_same_for_any_number_of_threads) {
   const GridGeometry g(0, 0, 0.002, 150, 300);
   const auto run = [&](std::size_t threads) {
