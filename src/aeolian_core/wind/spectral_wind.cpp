@@ -1,0 +1,101 @@
+#include "aeolian_core/wind/spectral_wind.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include "aeolian_core/surface/require.hpp"
+#include "aeolian_core/wind/stress_table.hpp"
+
+namespace aeolian {
+namespace {
+
+constexpr Require require("wind over relief");
+
+/// The stress of each cell, relative to that of flat ground, along and across the wind.
+struct Stress {
+  std::vector<double> along;
+  std::vector<double> across;
+  int row = 0;  ///< length of a row
+};
+
+Stress stress_of(const ReliefSpectrum& relief, int rows, const UpwindProfile& upwind, double direction) {
+  const StressTable table(upwind, relief.longest(), relief.shortest());
+  const double c = std::cos(direction);
+  const double s = std::sin(direction);
+  Fourier::Spectrum along(relief.spectrum().size());
+  Fourier::Spectrum across(relief.spectrum().size());
+  const Fourier& fourier = relief.fourier();
+  tbb::parallel_for(0, fourier.ny(), [&](int row) {
+    relief.for_each_wave(row, [&](std::size_t i, double kx, double ky) {
+      const WaveResponse r = table.stress(std::sqrt(kx * kx + ky * ky), c * kx + s * ky, c * ky - s * kx);
+      const std::complex<double> h = relief.spectrum()[i];
+      // Written out: the product of complex numbers of the library looks for infinities.
+      along[i] = {h.real() * r.along.real() - h.imag() * r.along.imag(),
+                  h.real() * r.along.imag() + h.imag() * r.along.real()};
+      across[i] = {h.real() * r.across.real() - h.imag() * r.across.imag(),
+                   h.real() * r.across.imag() + h.imag() * r.across.real()};
+    });
+  });
+  Stress result;
+  result.row = fourier.nx();
+  tbb::parallel_invoke([&] { result.along = fourier.inverse(std::move(along), rows); },
+                       [&] { result.across = fourier.inverse(std::move(across), rows); });
+  return result;
+}
+
+}  // namespace
+
+double ReliefSettings::shortest() const {
+  constexpr double in_roughness = 200;  // roughness lengths: shorter waves are part of it
+  return std::max(shortest_wavelength, in_roughness * roughness);
+}
+
+SpectralWind::SpectralWind(const ReliefSettings& settings) : settings_(settings) {
+  UpwindProfile::log_law(settings.roughness);
+  require(settings.bubble.steepest > 0 && settings.bubble.steepest <= settings.bubble.onset,
+          "downslope of a bubble", settings.bubble.steepest, "positive and at most the slope of separation");
+}
+
+TerrainResponse SpectralWind::solve(const HeightMap& surface, double direction) const {
+  TerrainResponse response =
+      solve(wind_relief(surface, settings_.shortest(), settings_.periodic), direction);
+  const HeightMap::Layer& elevation = surface.layer(layer::elevation);
+  for (std::size_t i = 0; i < elevation.size(); ++i)
+    if (!std::isfinite(elevation[i]))
+      response.friction[i] = response.deflection[i] = response.separated[i] = HeightMap::unknown;
+  return response;
+}
+
+TerrainResponse SpectralWind::solve(const WindRelief& relief, double direction) const {
+  require(std::isfinite(direction), "direction", direction, "finite [rad]");
+  const ShelteredRelief shelter = sheltered(relief, direction, settings_.bubble);
+  const GridGeometry& g = relief.geometry;
+  TerrainResponse response{g, HeightMap::Layer(g.size()), HeightMap::Layer(g.size()),
+                           HeightMap::Layer(shelter.separated.begin(), shelter.separated.end())};
+  if (response.separated.empty()) response.separated.assign(g.size(), 0);
+  if (g.size() == 1) {
+    response.friction[0] = 1;
+    return response;
+  }
+  const Stress stress = stress_of(ReliefSpectrum(shelter.relief), g.ny(),
+                                  UpwindProfile::log_law(settings_.roughness), direction);
+  tbb::parallel_for(0, g.ny(), [&](int y) {
+    for (int x = 0; x < g.nx(); ++x) {
+      const std::size_t cell = g.index(x, y);
+      if (response.separated[cell] > 0) continue;
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(stress.row) +
+                     static_cast<std::size_t>(x);
+      const auto along = static_cast<float>(1 + stress.along[i]);
+      const auto across = static_cast<float>(stress.across[i]);
+      if (along <= 0) continue;  // the wind that theory knows is at rest there
+      response.friction[cell] = std::sqrt(std::sqrt(along * along + across * across));
+      response.deflection[cell] = std::atan2(across, along);
+    }
+  });
+  return response;
+}
+
+}  // namespace aeolian
