@@ -7,7 +7,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include "aeolian_core/surface/require.hpp"
-#include "aeolian_core/wind/stress_table.hpp"
+#include "aeolian_core/wind/wave_table.hpp"
 
 namespace aeolian {
 namespace {
@@ -22,7 +22,8 @@ struct Stress {
 };
 
 Stress stress_of(const ReliefSpectrum& relief, int rows, const UpwindProfile& upwind, double direction) {
-  const StressTable table(upwind, relief.longest(), relief.shortest());
+  const WaveTable table(upwind, relief.longest(), relief.shortest(),
+                        [](const ReliefWave& wave) { return wave.stress(); });
   const double c = std::cos(direction);
   const double s = std::sin(direction);
   Fourier::Spectrum along(relief.spectrum().size());
@@ -30,7 +31,7 @@ Stress stress_of(const ReliefSpectrum& relief, int rows, const UpwindProfile& up
   const Fourier& fourier = relief.fourier();
   tbb::parallel_for(0, fourier.ny(), [&](int row) {
     relief.for_each_wave(row, [&](std::size_t i, double kx, double ky) {
-      const WaveResponse r = table.stress(std::sqrt(kx * kx + ky * ky), c * kx + s * ky, c * ky - s * kx);
+      const WaveResponse r = table(std::sqrt(kx * kx + ky * ky), c * kx + s * ky, c * ky - s * kx);
       const std::complex<double> h = relief.spectrum()[i];
       // Written out: the product of complex numbers of the library looks for infinities.
       along[i] = {h.real() * r.along.real() - h.imag() * r.along.imag(),

@@ -1,18 +1,23 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <vector>
 
 #include "aeolian_core/wind/inner_layer.hpp"
 
 namespace aeolian {
 
-/// ReliefWave::stress() of all waves between two wave numbers, from a table that is good to about 1e-4.
-class StressTable {
+/// An answer of all ReliefWaves between two wave numbers, from a table: good to some 1e-3 of its greatest value.
+class WaveTable {
  public:
-  StressTable(const UpwindProfile& upwind, double least_wave_number, double greatest_wave_number);
+  using Answer = std::function<WaveResponse(const ReliefWave&)>;
+  WaveTable(const UpwindProfile& upwind, double least_wave_number, double greatest_wave_number,
+            const Answer& answer);
 
   /// `along`, `across` the wind, wave number k and its components [1/m].
-  WaveResponse stress(double k, double along, double across) const {
+  WaveResponse operator()(double k, double along, double across) const {
     const double cosine = along / k;
     const double row = std::min((std::log2(static_cast<float>(k)) - first_) * per_octave, last_row_);
     const double column = (columns - 1) * std::sqrt(std::abs(cosine));
