@@ -6,22 +6,28 @@
 namespace aeolian {
 namespace {
 
-constexpr int border_boxes = 8;        ///< beyond the map on either side
-constexpr double border_growth = 1.5;  ///< of their lengths
+/// Beyond the map on either side. A ridge without end is felt from far; where boxes are long along one axis and
+/// short along the other the solver takes its time.
+struct Border {
+  int boxes;
+  double growth;
+};
+constexpr Border ridge_border{8, 1.5};
+constexpr Border hill_border{6, 1.25};
 constexpr double height_growth = 1.15;
 constexpr double reach = 6;        ///< of the air above the highest ground, in units of the relief
 constexpr int relief_boxes = 28;   ///< between the lowest and the highest ground
 constexpr double flattest = 0.05;  ///< height of a box over its length, at least
 
 /// Borders of n boxes of length `box` from `origin` and of those beyond.
-std::vector<double> borders(double origin, double box, int n, bool thin) {
+std::vector<double> borders(double origin, double box, int n, bool thin, const Border& border) {
   std::vector<double> inner;
   for (int i = 0; i <= n; ++i) inner.push_back(origin + i * box);
   if (thin) return inner;
   std::vector<double> all;
   double length = box;
-  for (int i = 0; i < border_boxes; ++i) {
-    length *= border_growth;
+  for (int i = 0; i < border.boxes; ++i) {
+    length *= border.growth;
     inner.push_back(inner.back() + length);
     all.push_back((all.empty() ? origin : all.back()) - length);
   }
@@ -35,6 +41,7 @@ std::vector<double> borders(double origin, double box, int n, bool thin) {
 AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
     : relief_(relief), thin_x_(relief.geometry.nx() == 1), thin_y_(relief.geometry.ny() == 1) {
   const GridGeometry& g = relief.geometry;
+  const Border& border = thin_x_ || thin_y_ ? ridge_border : hill_border;
   const auto [low, high] = std::minmax_element(relief.height.begin(), relief.height.end());
   for (int joined = 1;; ++joined) {
     const double box = joined * g.cell();
@@ -48,8 +55,8 @@ AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
     while (z_.back() < *high + tall) z_.push_back(z_.back() + tall);
     const double above = z_.back() + std::max(reach * (*high - *low), 4 * box);
     for (double step = tall; z_.back() < above;) z_.push_back(z_.back() + (step *= height_growth));
-    x_ = borders(g.origin_x(), box_x, nx, thin_x_);
-    y_ = borders(g.origin_y(), box_y, ny, thin_y_);
+    x_ = borders(g.origin_x(), box_x, nx, thin_x_, border);
+    y_ = borders(g.origin_y(), box_y, ny, thin_y_, border);
     if ((x_.size() - 1) * (y_.size() - 1) * (z_.size() - 1) <= max_boxes || (nx <= 2 && ny <= 2)) return;
   }
 }
