@@ -85,11 +85,14 @@ void SpectralVolume::blow(const ReliefSpectrum& spectrum) {
     Fourier::Spectrum north(spectrum.spectrum().size());
     tbb::parallel_for(0, fourier.ny(), [&](int row) {
       spectrum.for_each_wave(row, [&](std::size_t i, double kx, double ky) {
-        const WaveResponse r = table(std::sqrt(kx * kx + ky * ky), c * kx + s * ky, c * ky - s * kx);
+        const WaveTable::Parts r =
+            table(static_cast<float>(c * kx + s * ky), static_cast<float>(c * ky - s * kx));
+        const std::complex<double> along(r.along_real, r.along_imaginary);
+        const std::complex<double> across(r.across_real, r.across_imaginary);
         const std::complex<double> h = spectrum.spectrum()[i];
         // Faces lie half a cell before the middles of cells.
-        east[i] = h * (c * r.along - s * r.across) * std::polar(1.0, -0.5 * kx * cell);
-        north[i] = h * (s * r.along + c * r.across) * std::polar(1.0, -0.5 * ky * cell);
+        east[i] = h * (c * along - s * across) * std::polar(1.0, -0.5 * kx * cell);
+        north[i] = h * (s * along + c * across) * std::polar(1.0, -0.5 * ky * cell);
       });
     });
     const std::vector<double> u = fourier.inverse(std::move(east), ny);

@@ -31,13 +31,14 @@ Stress stress_of(const ReliefSpectrum& relief, int rows, const UpwindProfile& up
   const Fourier& fourier = relief.fourier();
   tbb::parallel_for(0, fourier.ny(), [&](int row) {
     relief.for_each_wave(row, [&](std::size_t i, double kx, double ky) {
-      const WaveResponse r = table(std::sqrt(kx * kx + ky * ky), c * kx + s * ky, c * ky - s * kx);
-      const std::complex<double> h = relief.spectrum()[i];
-      // Written out: the product of complex numbers of the library looks for infinities.
-      along[i] = {h.real() * r.along.real() - h.imag() * r.along.imag(),
-                  h.real() * r.along.imag() + h.imag() * r.along.real()};
-      across[i] = {h.real() * r.across.real() - h.imag() * r.across.imag(),
-                   h.real() * r.across.imag() + h.imag() * r.across.real()};
+      const WaveTable::Parts r =
+          table(static_cast<float>(c * kx + s * ky), static_cast<float>(c * ky - s * kx));
+      const double real = relief.spectrum()[i].real();
+      const double imaginary = relief.spectrum()[i].imag();
+      const double parts[] = {r.along_real, r.along_imaginary, r.across_real, r.across_imaginary};
+      // Written out: the library's product of complex numbers looks for infinities.
+      along[i] = {real * parts[0] - imaginary * parts[1], real * parts[1] + imaginary * parts[0]};
+      across[i] = {real * parts[2] - imaginary * parts[3], real * parts[3] + imaginary * parts[2]};
     });
   });
   Stress result;

@@ -49,10 +49,12 @@ std::string name_of(WindBackend backend) {
 
 WindBackend choose_backend(const WindRelief& relief, double direction, const ReliefSettings& settings,
                            WindQuestion question) {
-  if (steepness(relief) < level_slope) return WindBackend::log_law;
-  const double outside = steepness(sheltered(relief, direction, settings.bubble).relief);
+  const double steep = steepness(relief);
+  if (steep < level_slope) return WindBackend::log_law;
   const double gentle = question == WindQuestion::velocities ? gentle_slope : gentle_slope_for_stress;
-  return outside <= gentle ? WindBackend::spectral : WindBackend::mass_consistent;
+  const bool suits =
+      steep <= gentle || steepness(sheltered(relief, direction, settings.bubble).relief) <= gentle;
+  return suits ? WindBackend::spectral : WindBackend::mass_consistent;
 }
 
 struct TerrainWind::Solution {

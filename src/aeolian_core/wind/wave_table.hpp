@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -16,38 +18,38 @@ class WaveTable {
   WaveTable(const UpwindProfile& upwind, double least_wave_number, double greatest_wave_number,
             const Answer& answer);
 
-  /// `along`, `across` the wind, wave number k and its components [1/m].
-  WaveResponse operator()(double k, double along, double across) const {
-    const double cosine = along / k;
-    const double row = std::min((std::log2(static_cast<float>(k)) - first_) * per_octave, last_row_);
-    const double column = (columns - 1) * std::sqrt(std::abs(cosine));
-    const int r = std::min(static_cast<int>(row), rows_ - 2);
+  /// `along`, `across` the wind: the components of the wave number [1/m].
+  struct Parts {
+    float along_real, along_imaginary, across_real, across_imaginary;
+  };
+  Parts operator()(float along, float across) const {
+    const float square = along * along + across * across;
+    const float k = std::sqrt(square);
+    const int row = std::clamp(bin(square) - first_, 0, rows_ - 1);
+    const float column = (columns - 1) * std::sqrt(std::min(std::abs(along) / k, 1.0F));
     const int c = std::min(static_cast<int>(column), columns - 2);
-    const double wr = row - r;
-    const double wc = column - c;
-    const Entry* low = &table_[static_cast<std::size_t>(r * columns + c)];
-    const Entry* high = low + columns;
-    const double weights[] = {(1 - wr) * (1 - wc), (1 - wr) * wc, wr * (1 - wc), wr * wc};
-    double sum[4];
-    for (int i = 0; i < 4; ++i)
-      sum[i] = weights[0] * low[0].value[i] + weights[1] * low[1].value[i] + weights[2] * high[0].value[i] +
-               weights[3] * high[1].value[i];
-    const double sign = cosine < 0 ? -1 : 1;
-    return {{k * sum[0], sign * k * sum[1]}, {sign * across * sum[2], across * sum[3]}};
+    const float w = column - static_cast<float>(c);
+    const Parts* low = &table_[static_cast<std::size_t>(row * columns + c)];
+    const Parts& high = low[1];
+    const float sign = along < 0 ? -1 : 1;
+    return {k * (low->along_real + w * (high.along_real - low->along_real)),
+            sign * k * (low->along_imaginary + w * (high.along_imaginary - low->along_imaginary)),
+            sign * across * (low->across_real + w * (high.across_real - low->across_real)),
+            across * (low->across_imaginary + w * (high.across_imaginary - low->across_imaginary))};
   }
 
  private:
-  static constexpr int per_octave = 4;
   static constexpr int columns = 49;  ///< equally spaced in the root of the cosine
-  /// along/k, real and imaginary; across/(k sine).
-  struct Entry {
-    double value[4];
-  };
+  static constexpr int shift = 18;    ///< bits of a float that a bin does not tell: 32 bins to twice k^2
+  static int bin(float square) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &square, sizeof bits);
+    return static_cast<int>(bits >> shift);
+  }
 
-  double first_;
-  double last_row_;
+  int first_;
   int rows_;
-  std::vector<Entry> table_;
+  std::vector<Parts> table_;  ///< along/k, across/(k sine), at the middle of each bin
 };
 
 }  // namespace aeolian
