@@ -6,8 +6,8 @@
 namespace aeolian {
 namespace {
 
-/// Beyond the map on either side. A ridge without end is felt from far; where boxes are long along one axis and
-/// short along the other the solver takes its time.
+/// Beyond the map on either side. A ridge without end is felt from far; where boxes are long along one axis
+/// and short along the other the solver takes its time.
 struct Border {
   int boxes;
   double growth;
@@ -45,7 +45,9 @@ AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
   const auto [low, high] = std::minmax_element(relief.height.begin(), relief.height.end());
   for (int joined = 1;; ++joined) {
     const double box = joined * g.cell();
-    const auto count = [&](int n) { return n == 1 ? 1 : std::max(2, static_cast<int>(std::lround(static_cast<double>(n) / joined))); };
+    const auto count = [&](int n) {
+      return n == 1 ? 1 : std::max(2, static_cast<int>(std::lround(static_cast<double>(n) / joined)));
+    };
     const int nx = count(g.nx());
     const int ny = count(g.ny());
     const double box_x = g.length_x() / nx;

@@ -6,9 +6,9 @@
 
 namespace aeolian {
 
-/// Boxes of air over a relief, some of them cut by the ground, some within it: over the map square and as high
-/// as each other from the lowest ground to the highest, beyond the map and above it ever greater, so that what
-/// is far away disturbs nothing.
+/// Boxes of air over a relief, some of them cut by the ground, some within it: over the map square and as
+/// high as each other from the lowest ground to the highest, beyond the map and above it ever greater, so
+/// that what is far away disturbs nothing.
 class AirGrid {
  public:
   /// At most about `max_boxes`, at least 1000; the map's cells are joined until that is so.
@@ -28,9 +28,9 @@ class AirGrid {
   double ground(double x, double y) const;
   /// Heights of the ground at some places along the western and southern border of column (ix, iy) and in it.
   static constexpr int samples = 4;
-  void western_edge(int ix, int iy, double* heights) const;           ///< `samples`
-  void southern_edge(int ix, int iy, double* heights) const;          ///< `samples`
-  void footprint(int ix, int iy, double* heights) const;              ///< `samples` squared
+  void western_edge(int ix, int iy, double* heights) const;   ///< `samples`
+  void southern_edge(int ix, int iy, double* heights) const;  ///< `samples`
+  void footprint(int ix, int iy, double* heights) const;      ///< `samples` squared
   /// How much of the heights between two borders is above the ground, 0 to 1.
   double open(const double* heights, int iz) const;
 

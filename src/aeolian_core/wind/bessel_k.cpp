@@ -66,8 +66,6 @@ BesselK by_continued_fraction(Complex z) {
 
 }  // namespace
 
-BesselK bessel_k(Complex z) {
-  return std::abs(z) <= series_reach ? by_series(z) : by_continued_fraction(z);
-}
+BesselK bessel_k(Complex z) { return std::abs(z) <= series_reach ? by_series(z) : by_continued_fraction(z); }
 
 }  // namespace aeolian

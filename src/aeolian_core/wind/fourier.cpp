@@ -11,10 +11,10 @@
 namespace aeolian {
 namespace {
 
-constexpr int block = 8;  ///< columns that are transformed together: two lines of cache of each row
+constexpr int block = 16;  ///< columns that are transformed together: two lines of cache of each row
 constexpr unsigned how = FFTW_ESTIMATE | FFTW_UNALIGNED;  // a measured plan would depend on the moment
 
-fftw_complex* raw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
+fftwf_complex* raw(std::complex<float>* p) { return reinterpret_cast<fftwf_complex*>(p); }
 
 /// FFTW plans in one thread at a time.
 std::mutex& planner() {
@@ -23,9 +23,9 @@ std::mutex& planner() {
 }
 
 struct Destroy {
-  void operator()(fftw_plan p) const { fftw_destroy_plan(p); }
+  void operator()(fftwf_plan p) const { fftwf_destroy_plan(p); }
 };
-using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, Destroy>;
+using Plan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, Destroy>;
 
 }  // namespace
 
@@ -40,15 +40,15 @@ Fourier::Fourier(int nx, int ny) : nx_(nx), ny_(ny), plans_(std::make_unique<Pla
   require(nx > 0, "columns", nx, "positive");
   require(ny > 0, "rows", ny, "positive");
   const std::lock_guard<std::mutex> lock(planner());
-  std::vector<double> row(static_cast<std::size_t>(nx));
+  std::vector<float> row(static_cast<std::size_t>(nx));
   Spectrum spectrum(static_cast<std::size_t>(columns()) * static_cast<std::size_t>(ny));
-  plans_->row_forward.reset(fftw_plan_dft_r2c_1d(nx, row.data(), raw(spectrum.data()), how));
-  plans_->row_inverse.reset(fftw_plan_dft_c2r_1d(nx, raw(spectrum.data()), row.data(), how));
+  plans_->row_forward.reset(fftwf_plan_dft_r2c_1d(nx, row.data(), raw(spectrum.data()), how));
+  plans_->row_inverse.reset(fftwf_plan_dft_c2r_1d(nx, raw(spectrum.data()), row.data(), how));
   for (const int n : {std::min(block, columns()), columns() % block}) {
     if (n == 0 || plans_->columns_forward[n]) continue;
     const auto plan = [&](int sign) {
-      return fftw_plan_many_dft(1, &ny_, n, raw(spectrum.data()), nullptr, columns(), 1, raw(spectrum.data()),
-                                nullptr, columns(), 1, sign, how);
+      return fftwf_plan_many_dft(1, &ny_, n, raw(spectrum.data()), nullptr, columns(), 1,
+                                 raw(spectrum.data()), nullptr, columns(), 1, sign, how);
     };
     plans_->columns_forward[n].reset(plan(FFTW_FORWARD));
     plans_->columns_inverse[n].reset(plan(FFTW_BACKWARD));
@@ -64,34 +64,34 @@ void Fourier::transform_columns(Spectrum& spectrum, bool forward) const {
   const Plan* plans = forward ? plans_->columns_forward : plans_->columns_inverse;
   tbb::parallel_for(0, (columns() + block - 1) / block, [&](int n) {
     const int first = n * block;
-    fftw_complex* data = raw(spectrum.data() + first);
-    fftw_execute_dft(plans[std::min(block, columns() - first)].get(), data, data);
+    fftwf_complex* data = raw(spectrum.data() + first);
+    fftwf_execute_dft(plans[std::min(block, columns() - first)].get(), data, data);
   });
 }
 
-Fourier::Spectrum Fourier::forward(const std::vector<double>& grid) const {
+Fourier::Spectrum Fourier::forward(const std::vector<float>& grid) const {
   Spectrum spectrum(static_cast<std::size_t>(columns()) * static_cast<std::size_t>(ny_));
   tbb::parallel_for(tbb::blocked_range<int>(0, ny_, 32), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<double> row(static_cast<std::size_t>(nx_));
+    std::vector<float> row(static_cast<std::size_t>(nx_));
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::copy_n(grid.begin() + static_cast<std::ptrdiff_t>(y) * nx_, nx_, row.begin());
-      fftw_execute_dft_r2c(plans_->row_forward.get(), row.data(),
-                           raw(spectrum.data() + static_cast<std::ptrdiff_t>(y) * columns()));
+      fftwf_execute_dft_r2c(plans_->row_forward.get(), row.data(),
+                            raw(spectrum.data() + static_cast<std::ptrdiff_t>(y) * columns()));
     }
   });
   transform_columns(spectrum, true);
   return spectrum;
 }
 
-std::vector<double> Fourier::inverse(Spectrum&& spectrum, int rows) const {
+std::vector<float> Fourier::inverse(Spectrum&& spectrum, int rows) const {
   transform_columns(spectrum, false);
-  std::vector<double> grid(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(rows));
-  const double scale = 1.0 / (static_cast<double>(nx_) * ny_);
+  std::vector<float> grid(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(rows));
+  const auto scale = static_cast<float>(1.0 / (static_cast<double>(nx_) * ny_));
   tbb::parallel_for(tbb::blocked_range<int>(0, rows, 32), [&](const tbb::blocked_range<int>& range) {
     for (int y = range.begin(); y < range.end(); ++y) {
-      double* row = grid.data() + static_cast<std::ptrdiff_t>(y) * nx_;
-      fftw_execute_dft_c2r(plans_->row_inverse.get(),
-                           raw(spectrum.data() + static_cast<std::ptrdiff_t>(y) * columns()), row);
+      float* row = grid.data() + static_cast<std::ptrdiff_t>(y) * nx_;
+      fftwf_execute_dft_c2r(plans_->row_inverse.get(),
+                            raw(spectrum.data() + static_cast<std::ptrdiff_t>(y) * columns()), row);
       for (int x = 0; x < nx_; ++x) row[x] *= scale;
     }
   });

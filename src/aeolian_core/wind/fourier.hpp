@@ -6,14 +6,14 @@
 
 namespace aeolian {
 
-/// Fourier transforms of a real grid of nx x ny, row by row, in double precision (FFTW, several threads;
+/// Fourier transforms of a real grid of nx x ny, row by row, in single precision (FFTW, several threads;
 /// the same bits for any number of them).
 ///
 /// A spectrum holds nx/2 + 1 numbers in each of ny rows: wave (ix, iy) has ix periods along x and iy, or
 /// iy - ny where that is nearer to zero, along y.
 class Fourier {
  public:
-  using Spectrum = std::vector<std::complex<double>>;
+  using Spectrum = std::vector<std::complex<float>>;
 
   /// Throws Error unless both counts are positive.
   Fourier(int nx, int ny);
@@ -28,9 +28,9 @@ class Fourier {
   int wave_y(int row) const { return row <= ny_ / 2 ? row : row - ny_; }
 
   /// The sum of grid exp(-i ...), not normalised. `grid`: nx * ny values.
-  Spectrum forward(const std::vector<double>& grid) const;
+  Spectrum forward(const std::vector<float>& grid) const;
   /// The sum of spectrum exp(+i ...) over nx ny, of the first `rows` rows; the spectrum is used up.
-  std::vector<double> inverse(Spectrum&& spectrum, int rows) const;
+  std::vector<float> inverse(Spectrum&& spectrum, int rows) const;
 
   /// The smallest count of small factors, even, that is not less.
   static int good_count(int least);

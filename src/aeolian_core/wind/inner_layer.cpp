@@ -77,8 +77,7 @@ WaveResponse ReliefWave::velocity(double height) const {
   const std::complex<double> slow = damping(1);
   const double scale = at_inner * gain_ * k_ * decay;
   const double ground = 2;  // the value of 1 - delta ln(z/l) at z0
-  std::complex<double> along =
-      scale * (c2 * (advected - ground * slow) + extra - delta * slow);
+  std::complex<double> along = scale * (c2 * (advected - ground * slow) + extra - delta * slow);
   // Streamlines that follow the ground below and are level aloft bring their speed along.
   const double lifted = (1 - decay) * (1 - fades);
   along += lifted / (von_karman * height);

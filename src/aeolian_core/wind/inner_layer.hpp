@@ -34,8 +34,8 @@ class ReliefWave {
   /// Only over a log law.
   WaveResponse stress() const;
   /// Of the velocity at a height over the ground [m], in units of the upwind profile. Its shear at the ground
-  /// gives stress(); aloft it is potential flow, u = k_x^2/k exp(-k z), as it is at all heights where the wind
-  /// has no shear.
+  /// gives stress(); aloft it is potential flow, u = k_x^2/k exp(-k z), as it is at all heights where the
+  /// wind has no shear.
   WaveResponse velocity(double height) const;
 
  private:

@@ -108,8 +108,7 @@ std::vector<std::uint8_t> fill_bubbles(std::vector<double>& height, double spaci
     std::size_t brink = i - 1;
     while (brink > 0 && height[brink] - height[brink - 1] < -c * spacing && !separated[brink]) --brink;
     const double top = height[brink];
-    const double slope =
-        brink > 0 ? std::clamp((top - height[brink - 1]) / spacing, -c, c) : 0.0;
+    const double slope = brink > 0 ? std::clamp((top - height[brink - 1]) / spacing, -c, c) : 0.0;
     const double a = slope / c;
     const double lengths = 1.5 / c * (1 + a / 4 + a * a / 8);  // over the fall
     // It comes down where the ground is as far away as such a fall is long.

@@ -50,8 +50,8 @@ MassConsistentVolume::MassConsistentVolume(const WindRelief& relief, double dire
   require(std::isfinite(direction), "direction", direction, "finite [rad]");
   require(settings.max_boxes >= 1000, "number of boxes", static_cast<double>(settings.max_boxes),
           "1000 or more");
-  require(settings.vertical_ease > 0 && settings.vertical_ease <= 1e6, "vertical ease", settings.vertical_ease,
-          "positive and at most 1e6");
+  require(settings.vertical_ease > 0 && settings.vertical_ease <= 1e6, "vertical ease",
+          settings.vertical_ease, "positive and at most 1e6");
   reference_ = grid_.z()[1] - grid_.z()[0];
   guess(direction);
   correct(settings);
@@ -67,7 +67,8 @@ void MassConsistentVolume::guess(double direction) {
   const double s = std::sin(direction);
   constexpr int samples = AirGrid::samples;
   // The upwind profile over the ground at each sample, in the middle of what is open above it.
-  const auto face = [&](const double* heights, int iz, double width, double part, double& area, double& flow) {
+  const auto face = [&](const double* heights, int iz, double width, double part, double& area,
+                        double& flow) {
     const double low = grid_.z()[static_cast<std::size_t>(iz)];
     const double high = grid_.z()[static_cast<std::size_t>(iz) + 1];
     area = flow = 0;
@@ -99,7 +100,8 @@ void MassConsistentVolume::guess(double direction) {
       const double area = (grid_.x()[i + 1] - grid_.x()[i]) * (grid_.y()[j + 1] - grid_.y()[j]);
       for (int iz = 1; iz <= nz; ++iz) {
         const double z = grid_.z()[static_cast<std::size_t>(iz)];
-        const auto below = std::count_if(heights, heights + samples * samples, [&](double h) { return h < z; });
+        const auto below =
+            std::count_if(heights, heights + samples * samples, [&](double h) { return h < z; });
         open_.z(ix, iy, iz) = area * static_cast<double>(below) / (samples * samples);
       }
     }
@@ -180,8 +182,8 @@ AirVelocity MassConsistentVolume::resolved(double x, double y, double z) const {
     double sum = 0;
     double weights = 0;
     for (int n = 0; n < 8; ++n) {
-      const double w = (n & 1 ? bx.part : 1 - bx.part) * (n & 2 ? by.part : 1 - by.part) *
-                       (n & 4 ? bz.part : 1 - bz.part);
+      const double w =
+          (n & 1 ? bx.part : 1 - bx.part) * (n & 2 ? by.part : 1 - by.part) * (n & 4 ? bz.part : 1 - bz.part);
       if (w <= 0) continue;
       const int ix = bx.low + (n & 1);
       const int iy = by.low + (n >> 1 & 1);
@@ -193,12 +195,15 @@ AirVelocity MassConsistentVolume::resolved(double x, double y, double z) const {
     }
     return weights > 0 ? sum / weights : 0;
   };
-  return {mean(face[0], box[1], box[2], [&](int i, int j, int k) { return open_.x(i, j, k); },
-               [&](int i, int j, int k) { return flows_.x(i, j, k); }),
-          mean(box[0], face[1], box[2], [&](int i, int j, int k) { return open_.y(i, j, k); },
-               [&](int i, int j, int k) { return flows_.y(i, j, k); }),
-          mean(box[0], box[1], face[2], [&](int i, int j, int k) { return open_.z(i, j, k); },
-               [&](int i, int j, int k) { return flows_.z(i, j, k); })};
+  return {mean(
+              face[0], box[1], box[2], [&](int i, int j, int k) { return open_.x(i, j, k); },
+              [&](int i, int j, int k) { return flows_.x(i, j, k); }),
+          mean(
+              box[0], face[1], box[2], [&](int i, int j, int k) { return open_.y(i, j, k); },
+              [&](int i, int j, int k) { return flows_.y(i, j, k); }),
+          mean(
+              box[0], box[1], face[2], [&](int i, int j, int k) { return open_.z(i, j, k); },
+              [&](int i, int j, int k) { return flows_.z(i, j, k); })};
 }
 
 AirVelocity MassConsistentVolume::velocity(double x, double y, double height) const {
@@ -220,7 +225,8 @@ TerrainResponse mass_consistent_response(const HeightMap& surface, double direct
   const MassConsistentVolume volume(relief, direction, upwind, solver);
   const std::vector<std::uint8_t> separated = sheltered(relief, direction, settings.bubble).separated;
   const GridGeometry& g = relief.geometry;
-  TerrainResponse response{g, HeightMap::Layer(g.size()), HeightMap::Layer(g.size()), HeightMap::Layer(g.size())};
+  TerrainResponse response{g, HeightMap::Layer(g.size()), HeightMap::Layer(g.size()),
+                           HeightMap::Layer(g.size())};
   const HeightMap::Layer& elevation = surface.layer(layer::elevation);
   const double height = std::max(volume.reference_height(), 20 * settings.roughness);
   const double undisturbed = upwind.speed(height);
@@ -236,8 +242,8 @@ TerrainResponse mass_consistent_response(const HeightMap& surface, double direct
       } else {
         const AirVelocity wind = volume.velocity(g.x(x), g.y(y), height);
         response.friction[i] = static_cast<float>(std::hypot(wind.east, wind.north) / undisturbed);
-        response.deflection[i] = static_cast<float>(
-            std::atan2(c * wind.north - s * wind.east, c * wind.east + s * wind.north));
+        response.deflection[i] =
+            static_cast<float>(std::atan2(c * wind.north - s * wind.east, c * wind.east + s * wind.north));
       }
     }
   });

@@ -11,8 +11,8 @@ namespace aeolian {
 /// air and does not blow through the ground (Sherman 1978, J. Appl. Meteor. 17, 312), for steep relief.
 ///
 /// Minimises alpha_1^2 |u - u0|^2 + alpha_2^2 (w - w0)^2. With a uniform guess and alpha_1 = alpha_2 it is
-/// potential flow. Boxes cut by the ground have as much of each face as is open, so cliffs and steps are met as
-/// they are. It knows no friction: the wind at the ground is fastest at the crest and not upwind of it.
+/// potential flow. Boxes cut by the ground have as much of each face as is open, so cliffs and steps are met
+/// as they are. It knows no friction: the wind at the ground is fastest at the crest and not upwind of it.
 class MassConsistentVolume : public WindVolume {
  public:
   struct Settings {
@@ -38,7 +38,7 @@ class MassConsistentVolume : public WindVolume {
   WindRelief relief_;
   UpwindProfile upwind_;
   AirGrid grid_;
-  FaceFlows open_;   ///< open areas [m^2]
+  FaceFlows open_;  ///< open areas [m^2]
   FaceFlows flows_;
   double reference_ = 0;
   int iterations_ = 0;

@@ -39,12 +39,12 @@ Plane middle_plane(const WindRelief& relief) {
 int padded(int n, bool periodic) { return n == 1 || periodic ? n : Fourier::good_count(2 * n); }
 
 /// How much of a border is left in each cell of the padding beyond it; nothing from halfway on.
-std::vector<double> remains(int padding) {
-  std::vector<double> parts(static_cast<std::size_t>(padding));
+std::vector<float> remains(int padding) {
+  std::vector<float> parts(static_cast<std::size_t>(padding));
   const double reach = 0.5 * padding + 0.5;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double distance = static_cast<double>(i) + 1;
-    parts[i] = distance < reach ? 0.5 * (1 + std::cos(M_PI * distance / reach)) : 0;
+    parts[i] = distance < reach ? static_cast<float>(0.5 * (1 + std::cos(M_PI * distance / reach))) : 0.0F;
   }
   return parts;
 }
@@ -59,23 +59,24 @@ ReliefSpectrum::ReliefSpectrum(const WindRelief& relief) {
   unit_x_ = 2 * M_PI / (nx * g.cell());
   unit_y_ = 2 * M_PI / (ny * g.cell());
   const Plane plane = middle_plane(relief);
-  std::vector<double> grid(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  const auto at = [&](int x, int y) -> double& {
+  std::vector<float> grid(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  const auto at = [&](int x, int y) -> float& {
     return grid[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)];
   };
-  const std::vector<double> beside = remains(nx - g.nx());
-  const std::vector<double> beyond = remains(ny - g.ny());
+  const std::vector<float> beside = remains(nx - g.nx());
+  const std::vector<float> beyond = remains(ny - g.ny());
   tbb::parallel_for(0, g.ny(), [&](int y) {
     const double row = plane.mean + plane.slope_y * (y - 0.5 * (g.ny() - 1));
     for (int x = 0; x < g.nx(); ++x)
-      at(x, y) = relief.height[g.index(x, y)] - row - plane.slope_x * (x - 0.5 * (g.nx() - 1));
+      at(x, y) =
+          static_cast<float>(relief.height[g.index(x, y)] - row - plane.slope_x * (x - 0.5 * (g.nx() - 1)));
     for (std::size_t i = 0; i < beside.size(); ++i)
       at(g.nx() + static_cast<int>(i), y) =
           beside[i] * at(g.nx() - 1, y) + beside[beside.size() - 1 - i] * at(0, y);
   });
   tbb::parallel_for(0, ny - g.ny(), [&](int i) {
-    const double last = beyond[static_cast<std::size_t>(i)];
-    const double first = beyond[beyond.size() - 1 - static_cast<std::size_t>(i)];
+    const float last = beyond[static_cast<std::size_t>(i)];
+    const float first = beyond[beyond.size() - 1 - static_cast<std::size_t>(i)];
     for (int x = 0; x < nx; ++x) at(x, g.ny() + i) = last * at(x, g.ny() - 1) + first * at(x, 0);
   });
   spectrum_ = fourier_->forward(grid);

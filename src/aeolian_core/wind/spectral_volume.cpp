@@ -12,6 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr Require require("wind volume");
+using Complex = Fourier::Spectrum::value_type;
 constexpr double growth = 1.25;  ///< of the thickness of layers
 
 /// Where ln(z) has its mean over a layer.
@@ -54,8 +55,9 @@ SpectralVolume::SpectralVolume(const WindRelief& relief, double direction, const
   const ReliefSpectrum spectrum(relief_);
   // The inner layer of the shortest wave is some layers deep.
   const double shortest = 1 / spectrum.shortest();
-  double face = upwind.sheared() ? std::max(20 * upwind.roughness(), 0.5 * inner_depth(shortest, upwind.roughness()))
-                                 : 0.5 * shortest;
+  double face = upwind.sheared()
+                    ? std::max(20 * upwind.roughness(), 0.5 * inner_depth(shortest, upwind.roughness()))
+                    : 0.5 * shortest;
   faces_ = {0, face};
   while (faces_.back() < top) faces_.push_back(face *= growth);
   for (std::size_t i = 0; i + 1 < faces_.size(); ++i)
@@ -89,17 +91,18 @@ void SpectralVolume::blow(const ReliefSpectrum& spectrum) {
             table(static_cast<float>(c * kx + s * ky), static_cast<float>(c * ky - s * kx));
         const std::complex<double> along(r.along_real, r.along_imaginary);
         const std::complex<double> across(r.across_real, r.across_imaginary);
-        const std::complex<double> h = spectrum.spectrum()[i];
+        const std::complex<double> h(spectrum.spectrum()[i]);
         // Faces lie half a cell before the middles of cells.
-        east[i] = h * (c * along - s * across) * std::polar(1.0, -0.5 * kx * cell);
-        north[i] = h * (s * along + c * across) * std::polar(1.0, -0.5 * ky * cell);
+        east[i] = Complex(h * (c * along - s * across) * std::polar(1.0, -0.5 * kx * cell));
+        north[i] = Complex(h * (s * along + c * across) * std::polar(1.0, -0.5 * ky * cell));
       });
     });
-    const std::vector<double> u = fourier.inverse(std::move(east), ny);
-    const std::vector<double> v = fourier.inverse(std::move(north), rows);
-    const auto at = [&](const std::vector<double>& grid, int x, int y) {
-      return grid[static_cast<std::size_t>(y % fourier.ny()) * static_cast<std::size_t>(fourier.nx()) +
-                  static_cast<std::size_t>(x % fourier.nx())];
+    const std::vector<float> u = fourier.inverse(std::move(east), ny);
+    const std::vector<float> v = fourier.inverse(std::move(north), rows);
+    const auto at = [&](const std::vector<float>& grid, int x, int y) {
+      return static_cast<double>(
+          grid[static_cast<std::size_t>(y % fourier.ny()) * static_cast<std::size_t>(fourier.nx()) +
+               static_cast<std::size_t>(x % fourier.nx())]);
     };
     tbb::parallel_for(0, ny + 1, [&](int y) {
       for (int x = 0; x <= nx; ++x) {
@@ -139,12 +142,14 @@ AirVelocity SpectralVolume::velocity(double px, double py, double height) const 
   if (!raised_.empty())
     height -= bilinear(cell_x, cell_y, [&](int ix, int iy) { return raised_[geometry_.index(ix, iy)]; });
   if (height <= upwind_.roughness()) return {};
-  const auto above = static_cast<int>(std::upper_bound(centres_.begin(), centres_.end(), height) - centres_.begin());
+  const auto above =
+      static_cast<int>(std::upper_bound(centres_.begin(), centres_.end(), height) - centres_.begin());
   AirVelocity wind;
   if (above == 0 || above == flows_.nz()) {
     // Below the first layer's height a log law down to the roughness length.
     wind = level(x, y, std::min(above, flows_.nz() - 1));
-    const double part = above == 0 && upwind_.sheared() ? upwind_.speed(height) / upwind_.speed(centres_[0]) : 1;
+    const double part =
+        above == 0 && upwind_.sheared() ? upwind_.speed(height) / upwind_.speed(centres_[0]) : 1;
     wind.east *= part;
     wind.north *= part;
   } else {
@@ -152,7 +157,8 @@ AirVelocity SpectralVolume::velocity(double px, double py, double height) const 
     const AirVelocity high = level(x, y, above);
     const double z0 = centres_[static_cast<std::size_t>(above - 1)];
     const double z1 = centres_[static_cast<std::size_t>(above)];
-    const double part = upwind_.sheared() ? std::log(height / z0) / std::log(z1 / z0) : (height - z0) / (z1 - z0);
+    const double part =
+        upwind_.sheared() ? std::log(height / z0) / std::log(z1 / z0) : (height - z0) / (z1 - z0);
     wind = {low.east + part * (high.east - low.east), low.north + part * (high.north - low.north), 0};
   }
   const auto face = static_cast<int>(std::upper_bound(faces_.begin(), faces_.end(), height) - faces_.begin());

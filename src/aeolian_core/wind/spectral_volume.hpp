@@ -9,8 +9,8 @@ namespace aeolian {
 
 /// The wind of linear theory in the air over a map: layers that follow the ground (or the tops of bubbles),
 /// thin below, thick above. Along a streamline the pressure of potential flow over the relief, taken at the
-/// speed of the middle layer, speeds the air up or slows it down; continuity gives what rises or sinks, so that
-/// no box of the grid gains or loses air.
+/// speed of the middle layer, speeds the air up or slows it down; continuity gives what rises or sinks, so
+/// that no box of the grid gains or loses air.
 class SpectralVolume : public WindVolume {
  public:
   /// Up to `top` over the ground [m], positive. `upwind` uniform gives potential flow.

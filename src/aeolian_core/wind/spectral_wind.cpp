@@ -16,8 +16,8 @@ constexpr Require require("wind over relief");
 
 /// The stress of each cell, relative to that of flat ground, along and across the wind.
 struct Stress {
-  std::vector<double> along;
-  std::vector<double> across;
+  std::vector<float> along;
+  std::vector<float> across;
   int row = 0;  ///< length of a row
 };
 
@@ -33,12 +33,13 @@ Stress stress_of(const ReliefSpectrum& relief, int rows, const UpwindProfile& up
     relief.for_each_wave(row, [&](std::size_t i, double kx, double ky) {
       const WaveTable::Parts r =
           table(static_cast<float>(c * kx + s * ky), static_cast<float>(c * ky - s * kx));
-      const double real = relief.spectrum()[i].real();
-      const double imaginary = relief.spectrum()[i].imag();
-      const double parts[] = {r.along_real, r.along_imaginary, r.across_real, r.across_imaginary};
+      const float real = relief.spectrum()[i].real();
+      const float imaginary = relief.spectrum()[i].imag();
       // Written out: the library's product of complex numbers looks for infinities.
-      along[i] = {real * parts[0] - imaginary * parts[1], real * parts[1] + imaginary * parts[0]};
-      across[i] = {real * parts[2] - imaginary * parts[3], real * parts[3] + imaginary * parts[2]};
+      along[i] = {real * r.along_real - imaginary * r.along_imaginary,
+                  real * r.along_imaginary + imaginary * r.along_real};
+      across[i] = {real * r.across_real - imaginary * r.across_imaginary,
+                   real * r.across_imaginary + imaginary * r.across_real};
     });
   });
   Stress result;
@@ -62,8 +63,7 @@ SpectralWind::SpectralWind(const ReliefSettings& settings) : settings_(settings)
 }
 
 TerrainResponse SpectralWind::solve(const HeightMap& surface, double direction) const {
-  TerrainResponse response =
-      solve(wind_relief(surface, settings_.shortest(), settings_.periodic), direction);
+  TerrainResponse response = solve(wind_relief(surface, settings_.shortest(), settings_.periodic), direction);
   const HeightMap::Layer& elevation = surface.layer(layer::elevation);
   for (std::size_t i = 0; i < elevation.size(); ++i)
     if (!std::isfinite(elevation[i]))
@@ -88,10 +88,10 @@ TerrainResponse SpectralWind::solve(const WindRelief& relief, double direction) 
     for (int x = 0; x < g.nx(); ++x) {
       const std::size_t cell = g.index(x, y);
       if (response.separated[cell] > 0) continue;
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(stress.row) +
-                     static_cast<std::size_t>(x);
-      const auto along = static_cast<float>(1 + stress.along[i]);
-      const auto across = static_cast<float>(stress.across[i]);
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(stress.row) + static_cast<std::size_t>(x);
+      const float along = 1 + stress.along[i];
+      const float across = stress.across[i];
       if (along <= 0) continue;  // the wind that theory knows is at rest there
       response.friction[cell] = std::sqrt(std::sqrt(along * along + across * across));
       response.deflection[cell] = std::atan2(across, along);

@@ -41,9 +41,12 @@ void require_physical(const WindInput& input) {
 
 std::string name_of(WindBackend backend) {
   switch (backend) {
-    case WindBackend::log_law: return "log law";
-    case WindBackend::spectral: return "spectral";
-    default: return "mass consistent";
+    case WindBackend::log_law:
+      return "log law";
+    case WindBackend::spectral:
+      return "spectral";
+    default:
+      return "mass consistent";
   }
 }
 
@@ -99,8 +102,9 @@ void TerrainWind::watch(const HeightMap& surface, double time) {
 }
 
 TerrainWind::Solution& TerrainWind::solution(const HeightMap& surface, double direction) {
-  const double middle =
-      settings_.sector > 0 ? wrap_angle(settings_.sector * std::round(direction / settings_.sector)) : direction;
+  const double middle = settings_.sector > 0
+                            ? wrap_angle(settings_.sector * std::round(direction / settings_.sector))
+                            : direction;
   for (const auto& known : solved_)
     if (std::abs(wrap_angle(known->direction - middle)) < 1e-9) return *known;
   const ReliefSettings& relief = settings_.relief;
@@ -117,7 +121,8 @@ TerrainWind::Solution& TerrainWind::solution(const HeightMap& surface, double di
   return *solved_.back();
 }
 
-std::unique_ptr<WindVolume> TerrainWind::volume(const HeightMap& surface, double direction, double top) const {
+std::unique_ptr<WindVolume> TerrainWind::volume(const HeightMap& surface, double direction,
+                                                double top) const {
   const ReliefSettings& settings = settings_.relief;
   const WindRelief relief = wind_relief(surface, settings.shortest(), settings.periodic);
   const UpwindProfile upwind = UpwindProfile::log_law(settings.roughness);
@@ -146,7 +151,8 @@ const AirVelocity& TerrainWind::at_anemometer(Solution& solution, const HeightMa
                   ": it stands in the air that separates behind a lee, whose wind does not tell that of the "
                   "surroundings");
     if (!(solution.response.friction[i] > 0))
-      throw Error(here + ": the relief holds the air still there, its wind does not tell that of the surroundings");
+      throw Error(here +
+                  ": the relief holds the air still there, its wind does not tell that of the surroundings");
   }
   AirVelocity wind;
   if (solution.backend == WindBackend::log_law) {
@@ -158,7 +164,8 @@ const AirVelocity& TerrainWind::at_anemometer(Solution& solution, const HeightMa
     const auto air = TerrainWind(same).volume(surface, solution.direction, 1.5 * input.height);
     wind = air->velocity(input.place->x, input.place->y, input.height);
     if (!(std::hypot(wind.east, wind.north) > 0))
-      throw Error(here + fmt::format(": at {:g} m it is within separated air or above what is solved", input.height));
+      throw Error(
+          here + fmt::format(": at {:g} m it is within separated air or above what is solved", input.height));
   }
   solution.anemometers.push_back({*input.place, input.height, wind});
   return solution.anemometers.back().wind;

@@ -18,8 +18,8 @@ std::string name_of(WindBackend backend);
 enum class WindQuestion { surface_stress, velocities };
 
 /// The model for a relief: the log law where slopes stay below 0.01 (relief shorter than what the settings
-/// take for ground is none), linear theory where what is outside of separated air is at most 0.3 steep, or 0.4
-/// for the stress, of which the mass-consistent wind has the place wrong, and that beyond.
+/// take for ground is none), linear theory where what is outside of separated air is at most 0.3 steep, or
+/// 0.4 for the stress, of which the mass-consistent wind has the place wrong, and that beyond.
 WindBackend choose_backend(const WindRelief& relief, double direction, const ReliefSettings& settings,
                            WindQuestion question);
 
@@ -34,8 +34,8 @@ struct TerrainWindSettings {
 };
 
 /// The wind at the surface of a map, by the model that suits its relief. Solved once for each sector of
-/// directions, then scaled, as the answer of relief to a neutral wind does not depend on its speed; solved anew
-/// when relief has changed enough.
+/// directions, then scaled, as the answer of relief to a neutral wind does not depend on its speed; solved
+/// anew when relief has changed enough.
 ///
 ///     TerrainWind model(settings);
 ///     WindField field = model.solve({8.0, direction, 2.0}, &map);

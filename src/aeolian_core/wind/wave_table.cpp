@@ -19,7 +19,8 @@ WaveTable::WaveTable(const UpwindProfile& upwind, double least_wave_number, doub
   table_.resize(static_cast<std::size_t>(rows_ * columns));
   const auto row = [&](int r) { return &table_[static_cast<std::size_t>(r * columns)]; };
   tbb::parallel_for(0, knots, [&](int knot) {
-    const std::uint32_t bits = (static_cast<std::uint32_t>(first_ + knot * solved_every) << shift) + (1U << (shift - 1));
+    const std::uint32_t bits =
+        (static_cast<std::uint32_t>(first_ + knot * solved_every) << shift) + (1U << (shift - 1));
     float middle = 0;
     std::memcpy(&middle, &bits, sizeof middle);
     const double k = std::sqrt(static_cast<double>(middle));

@@ -11,7 +11,8 @@
 
 namespace aeolian {
 
-/// An answer of all ReliefWaves between two wave numbers, from a table: good to some 1e-3 of its greatest value.
+/// An answer of all ReliefWaves between two wave numbers, from a table: good to some 1e-3 of its greatest
+/// value.
 class WaveTable {
  public:
   using Answer = std::function<WaveResponse(const ReliefWave&)>;

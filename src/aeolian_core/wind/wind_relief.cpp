@@ -69,10 +69,12 @@ void smooth_columns(std::vector<double>& height, int nx, int ny, int x0, int x1,
   std::vector<double> sum(width);
   for (int pass = 0; pass < passes; ++pass) {
     for (int y = 0; y < ny; ++y)
-      std::copy_n(&height[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
-                          static_cast<std::size_t>(x0)],
-                  width, &before[static_cast<std::size_t>(y) * width]);
-    const auto row = [&](int y) { return &before[static_cast<std::size_t>(folded(y, ny, periodic)) * width]; };
+      std::copy_n(
+          &height[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x0)],
+          width, &before[static_cast<std::size_t>(y) * width]);
+    const auto row = [&](int y) {
+      return &before[static_cast<std::size_t>(folded(y, ny, periodic)) * width];
+    };
     std::fill(sum.begin(), sum.end(), 0.0);
     for (int i = -box.radius; i <= box.radius; ++i)
       for (std::size_t x = 0; x < width; ++x) sum[x] += row(i)[x];
@@ -80,8 +82,8 @@ void smooth_columns(std::vector<double>& height, int nx, int ny, int x0, int x1,
       const double* below = row(y - box.radius - 1);
       const double* above = row(y + box.radius + 1);
       const double* leaves = row(y - box.radius);
-      double* out = &height[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) +
-                            static_cast<std::size_t>(x0)];
+      double* out =
+          &height[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x0)];
       for (std::size_t x = 0; x < width; ++x) {
         out[x] = box.scale * (sum[x] + box.part * (below[x] + above[x]));
         sum[x] += above[x] - leaves[x];
