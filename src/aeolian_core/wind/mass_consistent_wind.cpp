@@ -62,23 +62,27 @@ void MassConsistentVolume::guess(double direction) {
   const int ny = grid_.ny();
   const int nz = grid_.nz();
   open_ = FaceFlows(nx, ny, nz);
+  upstream_ = FaceFlows(nx, ny, nz);
   flows_ = FaceFlows(nx, ny, nz);
   const double c = std::cos(direction);
   const double s = std::sin(direction);
   constexpr int samples = AirGrid::samples;
-  // The upwind profile over the ground at each sample, in the middle of what is open above it.
-  const auto face = [&](const double* heights, int iz, double width, double part, double& area,
+  // The upwind profile over the ground at each sample, where it is open above it.
+  const auto face = [&](const double* heights, int iz, double width, double part, double& area, double& speed,
                         double& flow) {
     const double low = grid_.z()[static_cast<std::size_t>(iz)];
     const double high = grid_.z()[static_cast<std::size_t>(iz) + 1];
-    area = flow = 0;
+    area = 0;
+    double through = 0;
     for (int n = 0; n < samples; ++n) {
       const double from = std::max(low, heights[n]);
       if (from >= high) continue;
       const double strip = width / samples * (high - from);
       area += strip;
-      flow += strip * part * upwind_.speed(0.5 * (from + high) - heights[n]);
+      through += strip * upwind_.mean(from - heights[n], high - heights[n]);
     }
+    speed = area > 0 ? through / area : 0;
+    flow = part * through;
   };
   tbb::parallel_for(0, ny + 1, [&](int iy) {
     double heights[samples * samples];
@@ -88,12 +92,14 @@ void MassConsistentVolume::guess(double direction) {
       if (iy < ny) {
         grid_.western_edge(ix, iy, heights);
         for (int iz = 0; iz < nz; ++iz)
-          face(heights, iz, grid_.y()[j + 1] - grid_.y()[j], c, open_.x(ix, iy, iz), flows_.x(ix, iy, iz));
+          face(heights, iz, grid_.y()[j + 1] - grid_.y()[j], c, open_.x(ix, iy, iz), upstream_.x(ix, iy, iz),
+               flows_.x(ix, iy, iz));
       }
       if (ix < nx) {
         grid_.southern_edge(ix, iy, heights);
         for (int iz = 0; iz < nz; ++iz)
-          face(heights, iz, grid_.x()[i + 1] - grid_.x()[i], s, open_.y(ix, iy, iz), flows_.y(ix, iy, iz));
+          face(heights, iz, grid_.x()[i + 1] - grid_.x()[i], s, open_.y(ix, iy, iz), upstream_.y(ix, iy, iz),
+               flows_.y(ix, iy, iz));
       }
       if (iy == ny || ix == nx) continue;
       grid_.footprint(ix, iy, heights);
@@ -172,47 +178,51 @@ double MassConsistentVolume::top() const {
   return grid_.z().back() - *std::max_element(relief_.height.begin(), relief_.height.end());
 }
 
-AirVelocity MassConsistentVolume::resolved(double x, double y, double z) const {
+AirVelocity MassConsistentVolume::resolved(double x, double y, double height) const {
+  const double z = grid_.ground(x, y) + height;
   const Between box[] = {between_middles(grid_.x(), x), between_middles(grid_.y(), y),
                          between_middles(grid_.z(), z)};
   const Between face[] = {between_borders(grid_.x(), x), between_borders(grid_.y(), y),
                           between_borders(grid_.z(), z)};
-  // Trilinear between the faces that are open.
-  const auto mean = [&](const Between& bx, const Between& by, const Between& bz, auto&& open, auto&& flow) {
+  // Trilinear between what the faces that are open have over their upwind speed, which varies most with
+  // height.
+  const auto mean = [](const Between& bx, const Between& by, const Between& bz, auto&& open, auto&& value) {
     double sum = 0;
     double weights = 0;
     for (int n = 0; n < 8; ++n) {
       const double w =
           (n & 1 ? bx.part : 1 - bx.part) * (n & 2 ? by.part : 1 - by.part) * (n & 4 ? bz.part : 1 - bz.part);
-      if (w <= 0) continue;
       const int ix = bx.low + (n & 1);
       const int iy = by.low + (n >> 1 & 1);
       const int iz = bz.low + (n >> 2 & 1);
-      const double area = open(ix, iy, iz);
-      if (area <= 0) continue;
+      if (w <= 0 || !(open(ix, iy, iz) > 0)) continue;
       weights += w;
-      sum += w * flow(ix, iy, iz) / area;
+      sum += w * value(ix, iy, iz);
     }
     return weights > 0 ? sum / weights : 0;
   };
-  return {mean(
-              face[0], box[1], box[2], [&](int i, int j, int k) { return open_.x(i, j, k); },
-              [&](int i, int j, int k) { return flows_.x(i, j, k); }),
-          mean(
-              box[0], face[1], box[2], [&](int i, int j, int k) { return open_.y(i, j, k); },
-              [&](int i, int j, int k) { return flows_.y(i, j, k); }),
+  const double speed = upwind_.speed(height);
+  return {speed * mean(
+                      face[0], box[1], box[2], [&](int i, int j, int k) { return upstream_.x(i, j, k); },
+                      [&](int i, int j, int k) {
+                        return flows_.x(i, j, k) / (open_.x(i, j, k) * upstream_.x(i, j, k));
+                      }),
+          speed * mean(
+                      box[0], face[1], box[2], [&](int i, int j, int k) { return upstream_.y(i, j, k); },
+                      [&](int i, int j, int k) {
+                        return flows_.y(i, j, k) / (open_.y(i, j, k) * upstream_.y(i, j, k));
+                      }),
           mean(
               box[0], box[1], face[2], [&](int i, int j, int k) { return open_.z(i, j, k); },
-              [&](int i, int j, int k) { return flows_.z(i, j, k); })};
+              [&](int i, int j, int k) { return flows_.z(i, j, k) / open_.z(i, j, k); })};
 }
 
 AirVelocity MassConsistentVolume::velocity(double x, double y, double height) const {
   if (!relief_.geometry.find(x, y) || !(height <= top())) return {NAN, NAN, NAN};
   if (height <= upwind_.roughness()) return {};
-  const double ground = grid_.ground(x, y);
-  if (!upwind_.sheared() || height >= reference_) return resolved(x, y, ground + height);
+  if (!upwind_.sheared() || height >= reference_) return resolved(x, y, height);
   // Within the lowest boxes by the law of the wall, along the ground.
-  AirVelocity wind = resolved(x, y, ground + reference_);
+  AirVelocity wind = resolved(x, y, reference_);
   const double part = upwind_.speed(height) / upwind_.speed(reference_);
   return {part * wind.east, part * wind.north, part * wind.up};
 }

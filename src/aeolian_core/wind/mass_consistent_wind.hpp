@@ -33,12 +33,14 @@ class MassConsistentVolume : public WindVolume {
  private:
   void guess(double direction);
   void correct(const Settings& settings);
-  AirVelocity resolved(double x, double y, double z) const;
+  /// At a height over the ground [m] that the boxes resolve.
+  AirVelocity resolved(double x, double y, double height) const;
 
   WindRelief relief_;
   UpwindProfile upwind_;
   AirGrid grid_;
-  FaceFlows open_;  ///< open areas [m^2]
+  FaceFlows open_;      ///< open areas [m^2]
+  FaceFlows upstream_;  ///< mean speed of the upwind profile in upright faces
   FaceFlows flows_;
   double reference_ = 0;
   int iterations_ = 0;

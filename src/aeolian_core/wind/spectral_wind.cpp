@@ -58,6 +58,8 @@ double ReliefSettings::shortest() const {
 
 SpectralWind::SpectralWind(const ReliefSettings& settings) : settings_(settings) {
   UpwindProfile::log_law(settings.roughness);
+  require(settings.shortest_wavelength >= 0 && std::isfinite(settings.shortest_wavelength),
+          "shortest wavelength", settings.shortest_wavelength, "zero or positive [m]");
   require(settings.bubble.steepest > 0 && settings.bubble.steepest <= settings.bubble.onset,
           "downslope of a bubble", settings.bubble.steepest, "positive and at most the slope of separation");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -25,6 +26,14 @@ class UpwindProfile {
   double speed(double height) const {
     if (!sheared()) return 1;
     return height > roughness_ ? std::log(height / roughness_) / von_karman : 0;
+  }
+  /// Its mean between two heights [m].
+  double mean(double low, double high) const {
+    if (!sheared()) return 1;
+    const double from = std::max(low, roughness_);
+    if (high <= from) return 0;
+    const auto integral = [&](double z) { return z * (std::log(z / roughness_) - 1) / von_karman; };
+    return (integral(high) - integral(from)) / (high - low);
   }
 
  private:

@@ -22,7 +22,7 @@ struct WindInput {
   double air_density = 1.225;  ///< [kg/m^3]
   double time = 0;             ///< [s]
   /// Where it stands; without a place it stands in the surroundings, where no relief bends the wind.
-  std::optional<MapPoint> place;
+  std::optional<MapPoint> place = std::nullopt;
 };
 
 /// The wind at the surface. A wind that is the same everywhere is two numbers; one that is not adds the

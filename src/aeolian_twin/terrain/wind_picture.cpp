@@ -18,7 +18,7 @@ namespace {
 
 constexpr Ink black{0.1, 0.1, 0.1};
 constexpr Ink halo{1, 1, 1, 0.55};
-constexpr cv::Vec3b calm(150, 150, 150);
+const cv::Vec3b calm(150, 150, 150);
 constexpr int longest_side = 1000;  ///< of the map [px]
 constexpr int margin = 76;          ///< below the map, for words [px]
 constexpr int least_width = 720;
