@@ -16,6 +16,7 @@ constexpr Border ridge_border{8, 1.5};
 constexpr Border hill_border{6, 1.25};
 constexpr double height_growth = 1.15;
 constexpr double reach = 6;        ///< of the air above the highest ground, in units of the relief
+constexpr double aspect = 0.25;    ///< of its height, at least, and the map's length
 constexpr int relief_boxes = 28;   ///< between the lowest and the highest ground
 constexpr double flattest = 0.05;  ///< height of a box over its length, at least
 
@@ -55,7 +56,7 @@ AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
     const double tall = std::max((*high - *low) / relief_boxes, flattest * box);
     z_ = {*low - 1e-6 * tall};
     while (z_.back() < *high + tall) z_.push_back(z_.back() + tall);
-    const double above = z_.back() + std::max(reach * (*high - *low), 4 * box);
+    const double above = z_.back() + std::max(reach * (*high - *low), aspect * std::max(g.length_x(), g.length_y()));
     for (double step = tall; z_.back() < above;) z_.push_back(z_.back() + (step *= height_growth));
     x_ = borders(g.origin_x(), box_x, nx, thin_x_, border);
     y_ = borders(g.origin_y(), box_y, ny, thin_y_, border);

@@ -52,7 +52,9 @@ MassConsistentVolume::MassConsistentVolume(const WindRelief& relief, double dire
           "1000 or more");
   require(settings.vertical_ease > 0 && settings.vertical_ease <= 1e6, "vertical ease",
           settings.vertical_ease, "positive and at most 1e6");
-  reference_ = grid_.z()[1] - grid_.z()[0];
+  // The boxes that the ground cuts know their wind least.
+  reference_ = 2 * (grid_.z()[1] - grid_.z()[0]);
+  top_ = grid_.z().back() - *std::max_element(relief_.height.begin(), relief_.height.end());
   guess(direction);
   correct(settings);
 }
@@ -174,10 +176,6 @@ void MassConsistentVolume::correct(const Settings& settings) {
         flows_.z(ix, iy, iz) += a.z[i++] * (potential(ix, iy, iz - 1) - potential(ix, iy, iz));
 }
 
-double MassConsistentVolume::top() const {
-  return grid_.z().back() - *std::max_element(relief_.height.begin(), relief_.height.end());
-}
-
 AirVelocity MassConsistentVolume::resolved(double x, double y, double height) const {
   const double z = grid_.ground(x, y) + height;
   const Between box[] = {between_middles(grid_.x(), x), between_middles(grid_.y(), y),
@@ -195,26 +193,36 @@ AirVelocity MassConsistentVolume::resolved(double x, double y, double height) co
       const int ix = bx.low + (n & 1);
       const int iy = by.low + (n >> 1 & 1);
       const int iz = bz.low + (n >> 2 & 1);
-      if (w <= 0 || !(open(ix, iy, iz) > 0)) continue;
-      weights += w;
-      sum += w * value(ix, iy, iz);
+      const double counts = w > 0 ? w * open(ix, iy, iz) : 0;
+      if (!(counts > 0)) continue;
+      weights += counts;
+      sum += counts * value(ix, iy, iz);
     }
     return weights > 0 ? sum / weights : 0;
   };
+  const auto length = [](const std::vector<double>& borders, int i) {
+    return borders[static_cast<std::size_t>(i) + 1] - borders[static_cast<std::size_t>(i)];
+  };
+  const double east = mean(
+      face[0], box[1], box[2],
+      [&](int i, int j, int k) {
+        const double whole = length(grid_.y(), j) * length(grid_.z(), k);
+        return upstream_.x(i, j, k) > 0 ? open_.x(i, j, k) / whole : 0;
+      },
+      [&](int i, int j, int k) { return flows_.x(i, j, k) / (open_.x(i, j, k) * upstream_.x(i, j, k)); });
+  const double north = mean(
+      box[0], face[1], box[2],
+      [&](int i, int j, int k) {
+        const double whole = length(grid_.x(), i) * length(grid_.z(), k);
+        return upstream_.y(i, j, k) > 0 ? open_.y(i, j, k) / whole : 0;
+      },
+      [&](int i, int j, int k) { return flows_.y(i, j, k) / (open_.y(i, j, k) * upstream_.y(i, j, k)); });
+  const double up = mean(
+      box[0], box[1], face[2],
+      [&](int i, int j, int k) { return open_.z(i, j, k) / (length(grid_.x(), i) * length(grid_.y(), j)); },
+      [&](int i, int j, int k) { return flows_.z(i, j, k) / open_.z(i, j, k); });
   const double speed = upwind_.speed(height);
-  return {speed * mean(
-                      face[0], box[1], box[2], [&](int i, int j, int k) { return upstream_.x(i, j, k); },
-                      [&](int i, int j, int k) {
-                        return flows_.x(i, j, k) / (open_.x(i, j, k) * upstream_.x(i, j, k));
-                      }),
-          speed * mean(
-                      box[0], face[1], box[2], [&](int i, int j, int k) { return upstream_.y(i, j, k); },
-                      [&](int i, int j, int k) {
-                        return flows_.y(i, j, k) / (open_.y(i, j, k) * upstream_.y(i, j, k));
-                      }),
-          mean(
-              box[0], box[1], face[2], [&](int i, int j, int k) { return open_.z(i, j, k); },
-              [&](int i, int j, int k) { return flows_.z(i, j, k) / open_.z(i, j, k); })};
+  return {speed * east, speed * north, up};
 }
 
 AirVelocity MassConsistentVolume::velocity(double x, double y, double height) const {

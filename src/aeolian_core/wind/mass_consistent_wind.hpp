@@ -23,7 +23,7 @@ class MassConsistentVolume : public WindVolume {
                        const Settings& settings);
 
   AirVelocity velocity(double x, double y, double height) const override;
-  double top() const override;
+  double top() const override { return top_; }
   const FaceFlows& flows() const override { return flows_; }
   const AirGrid& grid() const { return grid_; }
   /// Height over the ground of the wind that tells its stress [m].
@@ -43,6 +43,7 @@ class MassConsistentVolume : public WindVolume {
   FaceFlows upstream_;  ///< mean speed of the upwind profile in upright faces
   FaceFlows flows_;
   double reference_ = 0;
+  double top_ = 0;
   int iterations_ = 0;
 };
 

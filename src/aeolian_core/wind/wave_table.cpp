@@ -24,7 +24,9 @@ WaveTable::WaveTable(const UpwindProfile& upwind, double least_wave_number, doub
     float middle = 0;
     std::memcpy(&middle, &bits, sizeof middle);
     const double k = std::sqrt(static_cast<double>(middle));
-    for (int column = 0; column < columns; ++column) {
+    // A wave square to the wind is not shifted, and has nothing across.
+    row(knot * solved_every)[0] = {static_cast<float>(answer(ReliefWave(upwind, k, 0, 1)).along.real() / k), 0, 0, 0};
+    for (int column = 1; column < columns; ++column) {
       const double root = static_cast<double>(column) / (columns - 1);
       // Per unit of the sine, which ReliefWave takes as it is given.
       const WaveResponse r = answer(ReliefWave(upwind, k, root * root, 1));

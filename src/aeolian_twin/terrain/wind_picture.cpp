@@ -33,7 +33,11 @@ class SpeedUpPicture {
         g_(run.map.geometry()),
         values_(speed_up(run)),
         scale_(std::clamp(static_cast<double>(longest_side) / std::max(g_.nx(), g_.ny()), 0.05, 40.0)) {
-    const ValueRange shown = display_range(values_, Palette::diverging);
+    HeightMap::Layer attached = values_;  // separated air has a colour of its own
+    if (run_.field.cells.has("separated"))
+      for (std::size_t i = 0; i < attached.size(); ++i)
+        if (run_.field.cells.layer("separated")[i] > 0) attached[i] = HeightMap::unknown;
+    const ValueRange shown = display_range(attached, Palette::diverging);
     range_ = std::max({least_range, shown.high, -shown.low});
     paint();
     Canvas canvas(picture_, scale_);

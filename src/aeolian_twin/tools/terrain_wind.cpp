@@ -12,6 +12,7 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
 #include "aeolian_core/wind/direction.hpp"
+#include "aeolian_core/wind/inner_layer.hpp"
 #include "aeolian_twin/terrain/wind_files.hpp"
 #include "aeolian_twin/terrain/wind_picture.hpp"
 #include "aeolian_twin/tools/program.hpp"
