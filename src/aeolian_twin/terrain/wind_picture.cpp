@@ -59,7 +59,7 @@ class SpeedUpPicture {
     // Gentle relief is exaggerated until it can be seen.
     const double range = std::isfinite(*high) && std::isfinite(*low) ? static_cast<double>(*high - *low) : 0;
     const double length = g_.cell() * std::max(g_.nx(), g_.ny());
-    const double exaggeration = range > 0 ? std::clamp(0.15 * length / range, 1.0, 50.0) : 1;
+    const double exaggeration = range > 0 ? std::clamp(0.05 * length / range, 1.0, 50.0) : 1;
     const auto colours =
         shaded_colours(g_, values_, Palette::diverging, {-range_, range_}, &elevation, exaggeration);
     cv::Mat cells(g_.ny(), g_.nx(), CV_8UC3);
