@@ -44,10 +44,10 @@ AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
   const GridGeometry& g = relief.geometry;
   const Border& border = thin_x_ || thin_y_ ? ridge_border : hill_border;
   const auto [low, high] = std::minmax_element(relief.height.begin(), relief.height.end());
-  for (int joined = 1;; ++joined) {
+  for (double joined = 1;; joined *= 1.1) {
     const double box = joined * g.cell();
     const auto count = [&](int n) {
-      return n == 1 ? 1 : std::max(2, static_cast<int>(std::lround(static_cast<double>(n) / joined)));
+      return n == 1 ? 1 : std::max(2, static_cast<int>(std::lround(n / joined)));
     };
     const int nx = count(g.nx());
     const int ny = count(g.ny());

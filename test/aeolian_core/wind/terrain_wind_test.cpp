@@ -10,7 +10,7 @@ namespace aeolian {
 namespace {
 
 HeightMap hill(double height) {
-  return world(96, 96, 1, [&](double x, double y) { return gaussian(std::hypot(x, y), height, 15); });
+  return world(64, 64, 1.5, [&](double x, double y) { return gaussian(std::hypot(x, y), height, 15); });
 }
 
 WindInput reading(double speed, double direction, double height, std::optional<MapPoint> place = {}) {
@@ -64,13 +64,13 @@ TEST(TerrainWind, IsSolvedAnewWhenReliefHasChangedEnough) {
   WindInput wind = reading(8, 0, 2);
   model.solve(wind, &map);
   HeightMap::Layer& z = map.layer(layer::elevation);
-  for (int y = 20; y < 52; ++y)  // ripples of a tile
-    for (int x = 20; x < 52; ++x) z[map.geometry().index(x, y)] += 0.003F * static_cast<float>(x % 2);
+  for (int y = 16; y < 48; ++y)  // ripples of a tile
+    for (int x = 16; x < 48; ++x) z[map.geometry().index(x, y)] += 0.003F * static_cast<float>(x % 2);
   wind.time = 30;
   EXPECT_EQ(model.solve(wind, &map).age, 30);
   EXPECT_EQ(model.solutions(), 1);
-  for (int y = 20; y < 52; ++y)
-    for (int x = 20; x < 52; ++x)
+  for (int y = 16; y < 48; ++y)
+    for (int x = 16; x < 48; ++x)
       z[map.geometry().index(x, y)] += 0.5F * std::sin(0.2F * static_cast<float>(x));
   wind.time = 60;
   EXPECT_EQ(model.solve(wind, &map).age, 0);
