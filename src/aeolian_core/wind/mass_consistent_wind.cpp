@@ -12,7 +12,7 @@ namespace aeolian {
 namespace {
 
 constexpr Require require("wind volume");
-constexpr double allowed_imbalance = 1e-9;  ///< summed over all boxes, of what flows into the grid
+constexpr double allowed_imbalance = 2e-8;  ///< summed over all boxes, of what flows into the grid
 
 std::vector<double> lengths(const std::vector<double>& borders) {
   std::vector<double> result;
