@@ -53,9 +53,10 @@ TEST(TerrainWind, IsSolvedOnceASectorAndScaled) {
   EXPECT_EQ(model.solutions(), 2);
   for (int flip = 0; flip < 6; ++flip) model.solve(reading(8, flip % 2 ? M_PI : -M_PI, 2), &map);
   EXPECT_EQ(model.solutions(), 3);
-  for (const double speed : {0.0, 60.0})
-    for (const float u : model.solve(reading(speed, 3.1, 2), &map).cells.layer("friction_velocity"))
-      ASSERT_TRUE(std::isfinite(u) && u >= 0);
+  for (const double speed : {0.0, 60.0}) {
+    const WindField field = model.solve(reading(speed, 3.1, 2), &map);
+    for (const float u : field.cells.layer("friction_velocity")) ASSERT_TRUE(std::isfinite(u) && u >= 0);
+  }
 }
 
 TEST(TerrainWind, IsSolvedAnewWhenReliefHasChangedEnough) {
