@@ -184,16 +184,16 @@ void refresh(ParticleBlock<Dim>& block, YieldConstants law) {
 }  // namespace
 
 template <>
-void from_nodes(ParticleBlock<2>& block, const Lanes* velocity, const Lanes* before,
+void from_nodes(ParticleBlock<2>& block, const ReachedNodes<2>& velocity, const ReachedNodes<2>& before,
                 const YieldConstants& law, const TransferStep& step, Transfer transfer) {
-  transfer == Transfer::flip ? flip_2d(block, velocity, before, law, step)
-                             : apic_2d(block, velocity, law, step);
+  transfer == Transfer::flip ? flip_2d(block, velocity.at, before.at, law, step)
+                             : apic_2d(block, velocity.at, law, step);
 }
 template <>
-void from_nodes(ParticleBlock<3>& block, const Lanes* velocity, const Lanes* before,
+void from_nodes(ParticleBlock<3>& block, const ReachedNodes<3>& velocity, const ReachedNodes<3>& before,
                 const YieldConstants& law, const TransferStep& step, Transfer transfer) {
-  transfer == Transfer::flip ? flip_3d(block, velocity, before, law, step)
-                             : apic_3d(block, velocity, law, step);
+  transfer == Transfer::flip ? flip_3d(block, velocity.at, before.at, law, step)
+                             : apic_3d(block, velocity.at, law, step);
 }
 template <>
 void refresh_stress(ParticleBlock<2>& block, const YieldConstants& law) {

@@ -161,11 +161,11 @@ class MaterialPoints<Dim>::Engine {
                    dt, 1e-12 * heaviest_, settings_.transfer);
     });
     share(grid_.awake(), [&](int k) {
-      std::array<Lanes, power<Dim>(reach_nodes)> velocity, before;
-      collect_velocities(block(k), grid_.nodes(), &NodeBlock<Dim>::velocity, velocity.data());
+      ReachedNodes<Dim> velocity, before;
+      collect_velocities(block(k), grid_.nodes(), &NodeBlock<Dim>::velocity, velocity);
       if (settings_.transfer == Transfer::flip)
-        collect_velocities(block(k), grid_.nodes(), &NodeBlock<Dim>::before, before.data());
-      from_nodes(block(k), velocity.data(), before.data(), constants_, step, settings_.transfer);
+        collect_velocities(block(k), grid_.nodes(), &NodeBlock<Dim>::before, before);
+      from_nodes(block(k), velocity, before, constants_, step, settings_.transfer);
     });
     finish_step(dt);
   }
@@ -210,14 +210,14 @@ class MaterialPoints<Dim>::Engine {
 
   /// When a node on which its snow lies moves.
   bool wake(ParticleBlock<Dim>& b) {
-    std::array<Lanes, power<Dim>(reach_nodes)> velocity;
-    collect_velocities(b, grid_.nodes(), &NodeBlock<Dim>::velocity, velocity.data());
+    ReachedNodes<Dim> velocity;
+    collect_velocities(b, grid_.nodes(), &NodeBlock<Dim>::velocity, velocity);
     const double limit = waking * settings_.rest_speed;
     for (std::size_t side = 0; side < b.nodes.size(); ++side)
       if (!grid_.is_live(b.nodes[side])) clear_side(velocity, static_cast<int>(side));
-    for (std::size_t n = 0; n < velocity.size(); ++n) {
-      const Lanes square = velocity[n] * velocity[n];
-      if (square[0] + square[1] + square[2] > limit * limit && b.sums.momentum[n][3] > 1e-12 * heaviest_) {
+    for (int n = 0; n < ReachedNodes<Dim>::size; ++n) {
+      const Lanes square = velocity.at[n] * velocity.at[n];
+      if (square[0] + square[1] + square[2] > limit * limit && b.sums.momentum->at[n][3] > 1e-12 * heaviest_) {
         b.asleep = false;
         b.calm = 0;
         return true;
@@ -227,8 +227,8 @@ class MaterialPoints<Dim>::Engine {
   }
 
   /// Nodes that no step has updated have old velocities.
-  static void clear_side(std::array<Lanes, power<Dim>(reach_nodes)>& velocity, int side) {
-    for (int n = 0; n < power<Dim>(reach_nodes); ++n) {
+  static void clear_side(ReachedNodes<Dim>& velocity, int side) {
+    for (int n = 0; n < ReachedNodes<Dim>::size; ++n) {
       int rest = n, number = 0, stride = 1;
       for (int d = 0; d < Dim; ++d) {
         const int local = rest % reach_nodes;
@@ -236,7 +236,7 @@ class MaterialPoints<Dim>::Engine {
         rest /= reach_nodes;
         stride *= 3;
       }
-      if (number == side) velocity[static_cast<std::size_t>(n)] = constant<Lanes>(0);
+      if (number == side) velocity.at[n] = constant<Lanes>(0);
     }
   }
 

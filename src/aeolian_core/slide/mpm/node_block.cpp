@@ -26,12 +26,13 @@ AEOLIAN_INLINE void for_overlap(int side, Each each) {
 
 template <int Dim>
 AEOLIAN_INLINE void add_up(const NodeBlock<Dim>& block, const std::vector<ParticleBlock<Dim>>& particles,
-                           std::vector<Lanes> NodeSums<Dim>::*which, Lanes* sums) {
+                           std::unique_ptr<ReachedNodes<Dim>> NodeSums<Dim>::*which,
+                           Lanes* sums) {
   for (int k = 0; k < NodeBlock<Dim>::size; ++k) sums[k] = constant<Lanes>(0);
   for (int side = 0; side < neighbours<Dim>; ++side) {
     const int number = block.particles[static_cast<std::size_t>(side)];
     if (number < 0) continue;
-    const Lanes* const from = (particles[static_cast<std::size_t>(number)].sums.*which).data();
+    const Lanes* const from = (particles[static_cast<std::size_t>(number)].sums.*which)->at;
     for_overlap<Dim>(side, [&](int node, int reached, int count) {
       for (int i = 0; i < count; ++i) sums[node + i] += from[reached + i];
     });
@@ -111,7 +112,7 @@ template <int Dim>
 void update_nodes(NodeBlock<Dim>& block, const std::vector<ParticleBlock<Dim>>& particles,
                   const std::vector<Obstacle<Dim>>& obstacles, const Point<Dim>& gravity, double dt,
                   double least, Transfer transfer) {
-  Lanes kick = constant<Lanes>(0);
+  alignas(sizeof(Lanes)) Lanes kick = constant<Lanes>(0);
   for (int d = 0; d < Dim; ++d) kick[d] = dt * gravity[d];
   if constexpr (Dim == 2)
     take_step_2d(block, particles, kick, dt, least, transfer);
@@ -122,13 +123,14 @@ void update_nodes(NodeBlock<Dim>& block, const std::vector<ParticleBlock<Dim>>& 
 
 template <int Dim>
 void collect_velocities(const ParticleBlock<Dim>& block, const std::vector<NodeBlock<Dim>>& nodes,
-                        std::array<Lanes, NodeBlock<Dim>::size> NodeBlock<Dim>::*which, Lanes* collected) {
+                        std::array<Lanes, NodeBlock<Dim>::size> NodeBlock<Dim>::*which,
+                        ReachedNodes<Dim>& collected) {
   for (int side = 0; side < neighbours<Dim>; ++side) {
     // Seen from the node block, the particle block is on the other side.
     const Lanes* const from =
         (nodes[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(side)])].*which).data();
     for_overlap<Dim>(neighbours<Dim> - 1 - side, [&](int node, int reached, int count) {
-      for (int i = 0; i < count; ++i) collected[reached + i] = from[node + i];
+      for (int i = 0; i < count; ++i) collected.at[reached + i] = from[node + i];
     });
   }
 }
@@ -140,8 +142,8 @@ template void update_nodes(NodeBlock<2>&, const std::vector<ParticleBlock<2>>&,
 template void update_nodes(NodeBlock<3>&, const std::vector<ParticleBlock<3>>&,
                            const std::vector<Obstacle<3>>&, const Point<3>&, double, double, Transfer);
 template void collect_velocities(const ParticleBlock<2>&, const std::vector<NodeBlock<2>>&,
-                                 std::array<Lanes, NodeBlock<2>::size> NodeBlock<2>::*, Lanes*);
+                                 std::array<Lanes, NodeBlock<2>::size> NodeBlock<2>::*, ReachedNodes<2>&);
 template void collect_velocities(const ParticleBlock<3>&, const std::vector<NodeBlock<3>>&,
-                                 std::array<Lanes, NodeBlock<3>::size> NodeBlock<3>::*, Lanes*);
+                                 std::array<Lanes, NodeBlock<3>::size> NodeBlock<3>::*, ReachedNodes<3>&);
 
 }  // namespace aeolian

@@ -8,7 +8,7 @@ namespace aeolian {
 
 /// The nodes of a block: velocities at the end of a step.
 template <int Dim>
-struct NodeBlock {
+struct alignas(sizeof(Lanes)) NodeBlock {
   static constexpr int size = power<Dim>(block_cells);
   /// A node inside an obstacle.
   struct Touch {
@@ -35,9 +35,10 @@ void update_nodes(NodeBlock<Dim>& block, const std::vector<ParticleBlock<Dim>>& 
                   const std::vector<Obstacle<Dim>>& obstacles, const Point<Dim>& gravity, double dt,
                   double least, Transfer transfer);
 
-/// Node velocities that a particle block reaches, x fastest, from the node blocks about it.
+/// Node velocities that a particle block reaches, from the node blocks about it.
 template <int Dim>
 void collect_velocities(const ParticleBlock<Dim>& block, const std::vector<NodeBlock<Dim>>& nodes,
-                        std::array<Lanes, NodeBlock<Dim>::size> NodeBlock<Dim>::*which, Lanes* collected);
+                        std::array<Lanes, NodeBlock<Dim>::size> NodeBlock<Dim>::*which,
+                        ReachedNodes<Dim>& collected);
 
 }  // namespace aeolian

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "aeolian_core/slide/mpm/symmetric.hpp"
@@ -37,7 +38,7 @@ BlockPlace<Dim> neighbour(BlockPlace<Dim> place, int number) {
 
 /// Four particles. Lanes without a particle have no mass and the id -1.
 template <int Dim>
-struct Pack {
+struct alignas(sizeof(Lanes)) Pack {
   Lanes place[Dim];               ///< [m]
   Lanes velocity[Dim];            ///< [m/s]
   Lanes affine[Dim][Dim];         ///< C of APIC, velocity gradient [row][column] [1/s]
@@ -49,12 +50,19 @@ struct Pack {
   std::array<int, lane_count> id;
 };
 
-/// What a block's particles bring to the nodes that they reach, x fastest: momentum and, in the last lane,
-/// mass; for FLIP their forces beside it.
+/// A vector for each of the nodes that a block reaches, x fastest.
+template <int Dim>
+struct alignas(sizeof(Lanes)) ReachedNodes {
+  static constexpr int size = power<Dim>(reach_nodes);
+  Lanes at[size];
+};
+
+/// What a block's particles bring to the nodes that they reach: momentum and, in the last lane, mass; for FLIP
+/// their forces beside it.
 template <int Dim>
 struct NodeSums {
-  std::vector<Lanes> momentum;
-  std::vector<Lanes> force;  ///< empty unless FLIP
+  std::unique_ptr<ReachedNodes<Dim>> momentum;
+  std::unique_ptr<ReachedNodes<Dim>> force;  ///< null unless FLIP
 };
 
 /// The particles of a block.

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "aeolian_core/slide/mpm/stencil.hpp"
 #include "aeolian_core/slide/mpm/transfer.hpp"
 
@@ -114,9 +112,9 @@ AEOLIAN_INLINE void add_flip(const Pack<Dim>& pack, const Stencil<Dim>& s, Lanes
 
 template <int Dim, bool flip>
 AEOLIAN_INLINE void add_particles(ParticleBlock<Dim>& block, const TransferStep& step) {
-  constexpr int nodes = power<Dim>(reach_nodes);
-  Lanes* const momentum = block.sums.momentum.data();
-  Lanes* const force = block.sums.force.data();
+  constexpr int nodes = ReachedNodes<Dim>::size;
+  Lanes* const momentum = block.sums.momentum->at;
+  Lanes* const force = flip ? block.sums.force->at : nullptr;
   for (int k = 0; k < nodes; ++k) momentum[k] = constant<Lanes>(0);
   if constexpr (flip)
     for (int k = 0; k < nodes; ++k) force[k] = constant<Lanes>(0);
@@ -148,9 +146,8 @@ AEOLIAN_KERNEL void flip_3d(ParticleBlock<3>& block, const TransferStep& step) {
 
 template <int Dim>
 void make_room(NodeSums<Dim>& sums, bool flip) {
-  constexpr auto nodes = static_cast<std::size_t>(power<Dim>(reach_nodes));
-  sums.momentum.resize(nodes);
-  sums.force.resize(flip ? nodes : 0);
+  if (!sums.momentum) sums.momentum = std::make_unique<ReachedNodes<Dim>>();
+  if (flip && !sums.force) sums.force = std::make_unique<ReachedNodes<Dim>>();
 }
 
 }  // namespace
