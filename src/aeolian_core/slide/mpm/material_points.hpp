@@ -33,7 +33,7 @@ struct MpmSettings {
   double gravity = 9.81;     ///< [m/s^2]
   /// Blocks whose particles have been slower than this for so long are skipped until something moves at their
   /// nodes; 0: none is. The patience must tell a slab that begins to slide from one that is stuck.
-  double rest_speed = 1e-3;     ///< [m/s]
+  double rest_speed = 2e-3;     ///< [m/s]
   double rest_patience = 0.05;  ///< [s]
   int threads = 0;              ///< 0: as many as the machine has. The result does not depend on it.
 };
@@ -45,8 +45,8 @@ struct MpmWork {
   long shortened = 0;       ///< steps shorter than waves allow, because particles were fast
 };
 
-/// The material point method for one material among obstacles (Frischholz, ch. 1.2 and 3.1), in two dimensions
-/// (plane strain) or three.
+/// The material point method for one material among obstacles (Frischholz, ch. 1.2 and 3.1), in two
+/// dimensions (plane strain) or three.
 ///
 /// Quadratic B-splines on a grid of which only the blocks about particles exist. Particles are kept by block
 /// in packs of four. Each block of particles sums into nodes of its own, and each block of nodes adds up what
@@ -69,8 +69,8 @@ class MaterialPoints {
 
   std::vector<MaterialPoint<Dim>> points() const;  ///< in the order in which they were added
   std::size_t size() const;
-  std::size_t awake() const;  ///< particles that are not asleep
-  double time() const;        ///< [s]
+  std::size_t awake() const;    ///< particles that are not asleep
+  double time() const;          ///< [s]
   double longest_step() const;  ///< that waves allow [s]
   double fastest() const;       ///< speed of the fastest particle [m/s]
   const MpmWork& work() const;
