@@ -23,14 +23,14 @@ Nearness<Dim> HalfSpace<Dim>::at(const Point<Dim>& point) const {
 }
 
 template <int Dim>
-SolidBox<Dim>::SolidBox(const Point<Dim>& centre, const Axes& axes, const Point<Dim>& half_size)
+Plate<Dim>::Plate(const Point<Dim>& centre, const Axes& axes, const Point<Dim>& half_size)
     : centre_(centre), axes_(axes), half_(half_size) {
-  constexpr Require require{"box"};
+  constexpr Require require{"plate"};
   require(half_size.minCoeff() > 0 && half_size.allFinite(), "half size", half_size.minCoeff(), "positive");
 }
 
 template <int Dim>
-Nearness<Dim> SolidBox<Dim>::at(const Point<Dim>& point) const {
+Nearness<Dim> Plate<Dim>::at(const Point<Dim>& point) const {
   const Point<Dim> local = axes_.transpose() * (point - centre_);
   const Point<Dim> beyond = local.cwiseAbs() - half_;
   const Point<Dim> outside = beyond.cwiseMax(0);
@@ -40,10 +40,8 @@ Nearness<Dim> SolidBox<Dim>::at(const Point<Dim>& point) const {
     for (int d = 0; d < Dim; ++d) normal[d] = std::copysign(outside[d] / distance, local[d]);
     return {distance, axes_ * normal};
   }
-  int nearest = 0;
-  const double depth = beyond.maxCoeff(&nearest);
-  normal[nearest] = local[nearest] < 0 ? -1 : 1;
-  return {depth, axes_ * normal};
+  normal[Dim - 1] = local[Dim - 1] < 0 ? -1 : 1;
+  return {beyond[Dim - 1], axes_ * normal};
 }
 
 template <int Dim>
@@ -120,8 +118,8 @@ Point<Dim> after_contact(const Point<Dim>& velocity, const Point<Dim>& normal, c
 
 template class HalfSpace<2>;
 template class HalfSpace<3>;
-template class SolidBox<2>;
-template class SolidBox<3>;
+template class Plate<2>;
+template class Plate<3>;
 template class Terrain<2>;
 template class Terrain<3>;
 template Point<2> after_contact(const Point<2>&, const Point<2>&, const Obstacle<2>&);

@@ -44,13 +44,14 @@ class HalfSpace : public Shape<Dim> {
   Point<Dim> normal_;
 };
 
-/// A box: a panel, a wall.
+/// A plate: a panel, a wall. What is inside leaves by the nearer of the two broad faces, across the last axis:
+/// were it pushed out by the narrow ones, they would hold back what slides along the plate.
 template <int Dim>
-class SolidBox : public Shape<Dim> {
+class Plate : public Shape<Dim> {
  public:
   using Axes = Eigen::Matrix<double, Dim, Dim>;
   /// `axes` are orthonormal columns. Throws Error for a half size that is not positive.
-  SolidBox(const Point<Dim>& centre, const Axes& axes, const Point<Dim>& half_size);
+  Plate(const Point<Dim>& centre, const Axes& axes, const Point<Dim>& half_size);
   Nearness<Dim> at(const Point<Dim>& point) const override;
 
  private:
@@ -97,8 +98,8 @@ Point<Dim> after_contact(const Point<Dim>& velocity, const Point<Dim>& normal, c
 
 extern template class HalfSpace<2>;
 extern template class HalfSpace<3>;
-extern template class SolidBox<2>;
-extern template class SolidBox<3>;
+extern template class Plate<2>;
+extern template class Plate<3>;
 extern template class Terrain<2>;
 extern template class Terrain<3>;
 

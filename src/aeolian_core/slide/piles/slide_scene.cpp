@@ -55,6 +55,7 @@ void check(const SlideScene& scene, int dimensions) {
           scene.particles_per_cell, "from 1 to 1000");
   require(std::isfinite(scene.panel_height), "height of the panel", scene.panel_height, "finite");
   require(scene.still > 0, "speed of stillness", scene.still, "positive");
+  require(scene.still_for >= 0, "time of stillness", scene.still_for, "at least 0 s");
   require(scene.longest > 0 && scene.longest <= 3600, "longest event", scene.longest, "above 0 and at most 3600 s");
   require(scene.stuck_after > 0, "time after which a slab is stuck", scene.stuck_after, "positive");
   if (dimensions == 3) {
@@ -92,7 +93,7 @@ std::vector<Obstacle<Dim>> obstacles_of(const SlideScene& scene) {
   if constexpr (Dim == 3) half[1] = 0.5 * scene.panel_width;
   half[Dim - 1] = 0.5 * panel_thickness(scene);
   const Point<Dim> middle = frame.centre - half[Dim - 1] * frame.axes.col(Dim - 1);
-  return {{std::make_shared<SolidBox<Dim>>(middle, frame.axes, half), Contact::separate, scene.panel_friction,
+  return {{std::make_shared<Plate<Dim>>(middle, frame.axes, half), Contact::separate, scene.panel_friction,
            Point<Dim>::Zero()},
           {ground_shape<Dim>(scene), Contact::sticky, 0, Point<Dim>::Zero()}};
 }

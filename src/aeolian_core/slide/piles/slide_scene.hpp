@@ -35,9 +35,10 @@ struct SlideScene {
   Between between = Between::keep;
   std::uint64_t seed = 1;
   int threads = 0;
-  double still = 0.02;    ///< an event is over when no particle is faster [m/s]
-  double longest = 6;     ///< that an event may take [s]
-  double stuck_after = 1; ///< a slab that has not left by then and does not move is stuck [s]
+  double still = 0.02;      ///< an event is over when no particle has been faster [m/s] ...
+  double still_for = 0.25;  ///< ... for so long [s]
+  double longest = 6;        ///< that an event may take [s]
+  double stuck_after = 1;    ///< a slab that has not left by then and does not move is stuck [s]
 
   /// Takes the layer `elevation`; without a map the ground is level.
   std::optional<HeightMap> ground;

@@ -75,13 +75,14 @@ std::optional<SlideEvent<Dim>> SlideSeries<Dim>::next(const Watch& watch) {
   world.add(slab);
   SlideEvent<Dim> event;
   event.number = events_ + 1;
-  double on = 1;  // share of the slab that is on the panel
+  double on = 1;    // share of the slab that is on the panel
+  double calm = 0;  // how long the snow has been still [s]
   while (world.time() < scene_.longest) {
     world.advance(frame_time);
     event.fastest = std::max(event.fastest, world.fastest());
     if (watch && !watch({event.number, world.time(), world})) return std::nullopt;
-    const bool still = world.fastest() < scene_.still;
-    if (!still) continue;
+    calm = world.fastest() < scene_.still ? calm + frame_time : 0;
+    if (calm < scene_.still_for) continue;
     event.snow = world.points();
     const auto there = std::count_if(event.snow.begin() + static_cast<std::ptrdiff_t>(pile_.size()),
                                      event.snow.end(),
