@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "error_of.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/random.hpp"
-#include "error_of.hpp"
 
 namespace aeolian {
 namespace {
@@ -63,7 +63,8 @@ TEST(PileMeasure, GroundMayBeTilted) {
   auto points = cone();
   const PileSize level = measure_pile<3>(points);
   for (Point<3>& p : points)  // the inverse of the turn that makes the ground level
-    p = {std::cos(tilt) * p.x() - std::sin(tilt) * p.z(), p.y(), std::sin(tilt) * p.x() + std::cos(tilt) * p.z()};
+    p = {std::cos(tilt) * p.x() - std::sin(tilt) * p.z(), p.y(),
+         std::sin(tilt) * p.x() + std::cos(tilt) * p.z()};
   PileRules rules;
   rules.ground_tilt = tilt;
   const PileSize turned = measure_pile<3>(points, rules);
@@ -93,7 +94,9 @@ TEST(PileMeasure, RefusesWhatCannotBeMeasured) {
   EXPECT_EQ(error_of([] { measure_pile<2>({{0, std::nan("")}}); }), "pile: a point is not finite");
   PileRules rules;
   rules.trimmed = 1;
-  EXPECT_EQ(error_of([&] { measure_pile<2>({{0, 0}}, rules); }),
+  EXPECT_EQ(error_of([&] {
+              measure_pile<2>({{0, 0}}, rules);
+            }),
             "pile: share of outliers is 1, must be from 0 to below 1");
 }
 

@@ -62,11 +62,11 @@ TEST(ReturnMapping, GoldenTable) {
   struct Row {
     double p, q, p_after, q_after, expansion, p0_after;
   };
-  for (const Row& row : {Row{3000, 1000, 3000, 1000, 0, 7000}, Row{3000, 4000, 2972.13, 1773.33, -3.345e-5, 7002.8},
-                         Row{9000, 500, 6992.49, 106.09, -2.409e-3, 7200.8},
-                         Row{12000, 6000, 6799.77, 541.47, -6.240e-3, 7520.0},
-                         Row{-1000, 2000, -598.01, 1043.14, 4.824e-4, 6959.8},
-                         Row{-3000, 0, -1400, 0, 1.920e-3, 6840.0}}) {
+  for (const Row& row :
+       {Row{3000, 1000, 3000, 1000, 0, 7000}, Row{3000, 4000, 2972.13, 1773.33, -3.345e-5, 7002.8},
+        Row{9000, 500, 6992.49, 106.09, -2.409e-3, 7200.8},
+        Row{12000, 6000, 6799.77, 541.47, -6.240e-3, 7520.0},
+        Row{-1000, 2000, -598.01, 1043.14, 4.824e-4, 6959.8}, Row{-3000, 0, -1400, 0, 1.920e-3, 6840.0}}) {
     SCOPED_TRACE(row.p);
     const double alpha = law.initial_compaction();
     const Outcome<3> out = flow<3>(law, state_of(law, row.p, row.q), alpha);

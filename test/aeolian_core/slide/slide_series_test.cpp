@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "error_of.hpp"
+#include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
@@ -109,9 +108,11 @@ TEST(SlideSeries, RefusesScenesThatAreNotPossible) {
     change(scene);
     return error_of([&] { SlideSeries<2>{scene}; });
   };
-  EXPECT_EQ(told([](SlideScene& s) { s.slab_thickness = 0; }), "slide: thickness of the slab is 0, must be positive");
-  EXPECT_NE(told([](SlideScene& s) { s.panel_height = 0.05; }).find("lower edge of the panel above the ground"),
-            std::string::npos);
+  EXPECT_EQ(told([](SlideScene& s) { s.slab_thickness = 0; }),
+            "slide: thickness of the slab is 0, must be positive");
+  EXPECT_NE(
+      told([](SlideScene& s) { s.panel_height = 0.05; }).find("lower edge of the panel above the ground"),
+      std::string::npos);
   EXPECT_NE(told([](SlideScene& s) { s.tilt = 2; }).find("slide: tilt is 114.592"), std::string::npos);
   EXPECT_NE(told([](SlideScene& s) { s.cell = 0.05; }).find("at most the thickness"), std::string::npos);
   EXPECT_EQ(told([](SlideScene& s) { s.snow.cohesion = -1; }), "snow: beta is -1, must be from 0 to 10");

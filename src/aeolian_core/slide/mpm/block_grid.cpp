@@ -18,11 +18,12 @@ void BlockGrid<Dim>::hand_over(std::vector<Passenger<Dim>> newcomers) {
   for (const Passenger<Dim>& passenger : newcomers) {
     for (std::size_t d = 0; d < Dim; ++d)
       if (!(std::abs(passenger.values[d]) < farthest))
-        throw Error(fmt::format("snow: a particle is at {:g} m along axis {}, must stay within {:g} m of the origin",
-                                passenger.values[d], d, farthest));
+        throw Error(
+            fmt::format("snow: a particle is at {:g} m along axis {}, must stay within {:g} m of the origin",
+                        passenger.values[d], d, farthest));
     const BlockPlace<Dim> home = home_of(passenger, cell_);
-    const auto number = static_cast<std::size_t>(
-        particle_index_.find_or_set(home, static_cast<int>(particles_.size())));
+    const auto number =
+        static_cast<std::size_t>(particle_index_.find_or_set(home, static_cast<int>(particles_.size())));
     if (number == particles_.size()) {
       particles_.emplace_back();
       particles_.back().place = home;

@@ -23,9 +23,11 @@ class BlockGrid {
   std::vector<ParticleBlock<Dim>>& particles() { return particles_; }
   const std::vector<ParticleBlock<Dim>>& particles() const { return particles_; }
   std::vector<NodeBlock<Dim>>& nodes() { return nodes_; }
-  const std::vector<int>& awake() const { return awake_; }    ///< particle blocks
-  const std::vector<int>& live() const { return live_; }      ///< node blocks that one of those reaches
-  const std::vector<int>& border() const { return border_; }  ///< particle blocks asleep that reach such nodes
+  const std::vector<int>& awake() const { return awake_; }  ///< particle blocks
+  const std::vector<int>& live() const { return live_; }    ///< node blocks that one of those reaches
+  const std::vector<int>& border() const {
+    return border_;
+  }  ///< particle blocks asleep that reach such nodes
   bool is_live(int nodes) const { return live_flags_[static_cast<std::size_t>(nodes)] != 0; }
 
  private:

@@ -51,9 +51,9 @@ AEOLIAN_INLINE Lanes exponential(const Lanes& a) {
   const Lanes n = rounded - magic;
   const Lanes r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
   Lanes sum = constant<Lanes>(1.0 / 6227020800.0);
-  constexpr double reciprocals[] = {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
-                                    1.0 / 5040,      1.0 / 720,      1.0 / 120,     1.0 / 24,     1.0 / 6,
-                                    1.0 / 2,         1.0,            1.0};
+  constexpr double reciprocals[] = {
+      1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720,
+      1.0 / 120,       1.0 / 24,       1.0 / 6,       1.0 / 2,      1.0,         1.0};
   for (const double c : reciprocals) sum = sum * r + c;
   return from_bits(bits_of(sum) + (bits_of(rounded) << 52));
 }

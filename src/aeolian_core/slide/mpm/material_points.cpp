@@ -27,7 +27,8 @@ void check(const MpmSettings& s) {
   require(s.time_step >= 0 && std::isfinite(s.time_step), "time step", s.time_step, "at least 0");
   require(std::isfinite(s.gravity), "gravity", s.gravity, "finite");
   require(s.rest_speed >= 0 && std::isfinite(s.rest_speed), "rest speed", s.rest_speed, "at least 0");
-  require(s.rest_patience >= 0 && std::isfinite(s.rest_patience), "rest patience", s.rest_patience, "at least 0");
+  require(s.rest_patience >= 0 && std::isfinite(s.rest_patience), "rest patience", s.rest_patience,
+          "at least 0");
   require(s.threads >= 0 && s.threads <= 1024, "threads", s.threads, "from 0 to 1024");
 }
 
@@ -45,10 +46,11 @@ class MaterialPoints<Dim>::Engine {
     check(settings);
     longest_ = settings.courant * settings.cell / law.wave_speed();
     if (settings.time_step > longest_ * (1 + 1e-12))
-      throw Error(fmt::format(
-          "mpm: time step is {:g} s, must be at most {:.3g} s = {:g} cells of {:g} m at the speed of elastic waves, "
-          "{:.3g} m/s: longer ones are unstable",
-          settings.time_step, longest_, settings.courant, settings.cell, law.wave_speed()));
+      throw Error(
+          fmt::format("mpm: time step is {:g} s, must be at most {:.3g} s = {:g} cells of {:g} m at the "
+                      "speed of elastic waves, "
+                      "{:.3g} m/s: longer ones are unstable",
+                      settings.time_step, longest_, settings.courant, settings.cell, law.wave_speed()));
     if (settings.time_step > 0) longest_ = settings.time_step;
     gravity_ = Point<Dim>::Zero();
     gravity_[Dim - 1] = -settings.gravity;
@@ -66,7 +68,8 @@ class MaterialPoints<Dim>::Engine {
         throw Error(fmt::format("snow: particle {} is not finite", size_ + newcomers.size()));
       constexpr Require require{"snow"};
       require(point.mass > 0 && std::isfinite(point.mass), "mass of a particle", point.mass, "positive");
-      require(point.volume > 0 && std::isfinite(point.volume), "volume of a particle", point.volume, "positive");
+      require(point.volume > 0 && std::isfinite(point.volume), "volume of a particle", point.volume,
+              "positive");
       newcomers.push_back(passenger_of<Dim>(point, static_cast<int>(size_ + newcomers.size())));
       heaviest_ = std::max(heaviest_, point.mass);
       fastest_ = std::max(fastest_, point.velocity.norm());
@@ -145,7 +148,8 @@ class MaterialPoints<Dim>::Engine {
   double allowed_step() const {
     const double by_speed = fastest_ > 0 ? settings_.courant * settings_.cell / fastest_ : longest_;
     const double by_strain = most_gradient_ > 0 ? strain_aimed_at / most_gradient_ : longest_;
-    return std::min({longest_ * (1 + 1e-9), std::max(by_speed, 1e-6 * longest_), std::max(by_strain, 1e-6 * longest_)});
+    return std::min(
+        {longest_ * (1 + 1e-9), std::max(by_speed, 1e-6 * longest_), std::max(by_strain, 1e-6 * longest_)});
   }
 
   void take_step(double dt) {
@@ -217,7 +221,8 @@ class MaterialPoints<Dim>::Engine {
       if (!grid_.is_live(b.nodes[side])) clear_side(velocity, static_cast<int>(side));
     for (int n = 0; n < ReachedNodes<Dim>::size; ++n) {
       const Lanes square = velocity.at[n] * velocity.at[n];
-      if (square[0] + square[1] + square[2] > limit * limit && b.sums.momentum->at[n][3] > 1e-12 * heaviest_) {
+      if (square[0] + square[1] + square[2] > limit * limit &&
+          b.sums.momentum->at[n][3] > 1e-12 * heaviest_) {
         b.asleep = false;
         b.calm = 0;
         return true;
@@ -242,10 +247,11 @@ class MaterialPoints<Dim>::Engine {
 
   [[noreturn]] void refuse(const ParticleBlock<Dim>& b, double dt) const {
     const double size = block_cells * settings_.cell;
-    throw Error(fmt::format(
-        "mpm: unstable at {:.6g} s: a step of {:.3g} s strains a particle near ({:.3g}, {:.3g}) m by {:.3g}, must be at "
-        "most {:g}",
-        time_, dt, size * b.place[0], size * b.place[Dim - 1], b.strain, strain_allowed));
+    throw Error(
+        fmt::format("mpm: unstable at {:.6g} s: a step of {:.3g} s strains a particle near ({:.3g}, {:.3g}) "
+                    "m by {:.3g}, must be at "
+                    "most {:g}",
+                    time_, dt, size * b.place[0], size * b.place[Dim - 1], b.strain, strain_allowed));
   }
 
   YieldConstants constants_;

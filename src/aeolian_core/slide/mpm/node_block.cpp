@@ -26,8 +26,7 @@ AEOLIAN_INLINE void for_overlap(int side, Each each) {
 
 template <int Dim>
 AEOLIAN_INLINE void add_up(const NodeBlock<Dim>& block, const std::vector<ParticleBlock<Dim>>& particles,
-                           std::unique_ptr<ReachedNodes<Dim>> NodeSums<Dim>::*which,
-                           Lanes* sums) {
+                           std::unique_ptr<ReachedNodes<Dim>> NodeSums<Dim>::*which, Lanes* sums) {
   for (int k = 0; k < NodeBlock<Dim>::size; ++k) sums[k] = constant<Lanes>(0);
   for (int side = 0; side < neighbours<Dim>; ++side) {
     const int number = block.particles[static_cast<std::size_t>(side)];
@@ -79,7 +78,8 @@ void touch_obstacles(NodeBlock<Dim>& block, const std::vector<Obstacle<Dim>>& ob
     Lanes& lanes = block.velocity[static_cast<std::size_t>(touch.node)];
     Point<Dim> velocity;
     for (int d = 0; d < Dim; ++d) velocity[d] = lanes[d];
-    velocity = after_contact<Dim>(velocity, touch.normal, obstacles[static_cast<std::size_t>(touch.obstacle)]);
+    velocity =
+        after_contact<Dim>(velocity, touch.normal, obstacles[static_cast<std::size_t>(touch.obstacle)]);
     for (int d = 0; d < Dim; ++d) lanes[d] = velocity[d];
   }
 }

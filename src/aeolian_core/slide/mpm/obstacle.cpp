@@ -45,7 +45,8 @@ Nearness<Dim> Plate<Dim>::at(const Point<Dim>& point) const {
 }
 
 template <int Dim>
-Terrain<Dim>::Terrain(const HeightMap& map) : geometry_(map.geometry()), elevation_(map.layer(layer::elevation)) {
+Terrain<Dim>::Terrain(const HeightMap& map)
+    : geometry_(map.geometry()), elevation_(map.layer(layer::elevation)) {
   for (std::size_t k = 0; k < elevation_.size(); ++k)
     if (!std::isfinite(elevation_[k])) {
       const CellIndex cell = geometry_.cell_at(k);
@@ -103,7 +104,8 @@ double Terrain<Dim>::height(const Point<Dim>& point) const {
 }
 
 template <int Dim>
-Point<Dim> after_contact(const Point<Dim>& velocity, const Point<Dim>& normal, const Obstacle<Dim>& obstacle) {
+Point<Dim> after_contact(const Point<Dim>& velocity, const Point<Dim>& normal,
+                         const Obstacle<Dim>& obstacle) {
   if (obstacle.contact == Contact::sticky) return obstacle.velocity;
   const Point<Dim> relative = velocity - obstacle.velocity;
   const double along_normal = relative.dot(normal);

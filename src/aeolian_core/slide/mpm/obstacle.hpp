@@ -44,8 +44,8 @@ class HalfSpace : public Shape<Dim> {
   Point<Dim> normal_;
 };
 
-/// A plate: a panel, a wall. What is inside leaves by the nearer of the two broad faces, across the last axis:
-/// were it pushed out by the narrow ones, they would hold back what slides along the plate.
+/// A plate: a panel, a wall. What is inside leaves by the nearer of the two broad faces, across the last
+/// axis: were it pushed out by the narrow ones, they would hold back what slides along the plate.
 template <int Dim>
 class Plate : public Shape<Dim> {
  public:
@@ -60,8 +60,8 @@ class Plate : public Shape<Dim> {
   Point<Dim> half_;
 };
 
-/// Ground of any form: in two dimensions the section of a map along x at y = 0, in three the map. Between cell
-/// centres it is bilinear, outside it goes on level.
+/// Ground of any form: in two dimensions the section of a map along x at y = 0, in three the map. Between
+/// cell centres it is bilinear, outside it goes on level.
 template <int Dim>
 class Terrain : public Shape<Dim> {
  public:
@@ -88,8 +88,8 @@ template <int Dim>
 struct Obstacle {
   std::shared_ptr<const Shape<Dim>> shape;
   Contact contact = Contact::separate;
-  double friction = 0;                             ///< Coulomb's, of the compressive impulse
-  Point<Dim> velocity = Point<Dim>::Zero();        ///< of the surface [m/s]
+  double friction = 0;                       ///< Coulomb's, of the compressive impulse
+  Point<Dim> velocity = Point<Dim>::Zero();  ///< of the surface [m/s]
 };
 
 /// Velocity of a node that is inside a body, after contact.

@@ -109,13 +109,13 @@ void take_leavers(ParticleBlock<Dim>& block, double cell, std::vector<Passenger<
   for (int at = kept; at % lane_count != 0; ++at) put(block, at, none);
 }
 
-#define AEOLIAN_FOR(Dim)                                                                    \
-  template Passenger<Dim> take_lane(const Pack<Dim>&, int);                                 \
-  template void put_lane(Pack<Dim>&, int, const Passenger<Dim>&);                           \
-  template Passenger<Dim> passenger_of(const MaterialPoint<Dim>&, int);                     \
-  template MaterialPoint<Dim> point_of(const Passenger<Dim>&);                              \
-  template BlockPlace<Dim> home_of<Dim>(const Passenger<Dim>&, double);                          \
-  template void board(ParticleBlock<Dim>&, const Passenger<Dim>&, double);                  \
+#define AEOLIAN_FOR(Dim)                                                   \
+  template Passenger<Dim> take_lane(const Pack<Dim>&, int);                \
+  template void put_lane(Pack<Dim>&, int, const Passenger<Dim>&);          \
+  template Passenger<Dim> passenger_of(const MaterialPoint<Dim>&, int);    \
+  template MaterialPoint<Dim> point_of(const Passenger<Dim>&);             \
+  template BlockPlace<Dim> home_of<Dim>(const Passenger<Dim>&, double);    \
+  template void board(ParticleBlock<Dim>&, const Passenger<Dim>&, double); \
   template void take_leavers(ParticleBlock<Dim>&, double, std::vector<Passenger<Dim>>&);
 AEOLIAN_FOR(2)
 AEOLIAN_FOR(3)

@@ -39,14 +39,14 @@ BlockPlace<Dim> neighbour(BlockPlace<Dim> place, int number) {
 /// Four particles. Lanes without a particle have no mass and the id -1.
 template <int Dim>
 struct alignas(sizeof(Lanes)) Pack {
-  Lanes place[Dim];               ///< [m]
-  Lanes velocity[Dim];            ///< [m/s]
-  Lanes affine[Dim][Dim];         ///< C of APIC, velocity gradient [row][column] [1/s]
-  Lanes b[symmetric_size<Dim>];   ///< elastic left Cauchy-Green tensor
-  Lanes tau[symmetric_size<Dim>]; ///< Kirchhoff stress [Pa]
-  Lanes alpha;                    ///< compaction, see flow_and_stress
-  Lanes mass;                     ///< [kg], in two dimensions per metre of width
-  Lanes volume;                   ///< at the beginning [m^d]
+  Lanes place[Dim];                ///< [m]
+  Lanes velocity[Dim];             ///< [m/s]
+  Lanes affine[Dim][Dim];          ///< C of APIC, velocity gradient [row][column] [1/s]
+  Lanes b[symmetric_size<Dim>];    ///< elastic left Cauchy-Green tensor
+  Lanes tau[symmetric_size<Dim>];  ///< Kirchhoff stress [Pa]
+  Lanes alpha;                     ///< compaction, see flow_and_stress
+  Lanes mass;                      ///< [kg], in two dimensions per metre of width
+  Lanes volume;                    ///< at the beginning [m^d]
   std::array<int, lane_count> id;
 };
 
@@ -57,8 +57,8 @@ struct alignas(sizeof(Lanes)) ReachedNodes {
   Lanes at[size];
 };
 
-/// What a block's particles bring to the nodes that they reach: momentum and, in the last lane, mass; for FLIP
-/// their forces beside it.
+/// What a block's particles bring to the nodes that they reach: momentum and, in the last lane, mass; for
+/// FLIP their forces beside it.
 template <int Dim>
 struct NodeSums {
   std::unique_ptr<ReachedNodes<Dim>> momentum;

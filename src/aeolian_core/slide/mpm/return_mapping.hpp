@@ -42,7 +42,8 @@ struct Invariants {
 /// point on an ellipse. 1 / sqrt(S) is increasing and concave, so Newton's method on it comes from below
 /// without a step too far (Moré & Sorensen 1983) and needs no bracket.
 template <class Real>
-AEOLIAN_INLINE Invariants<Real> returned_to_ellipse(const YieldConstants& y, Invariants<Real> trial, Real p0) {
+AEOLIAN_INLINE Invariants<Real> returned_to_ellipse(const YieldConstants& y, Invariants<Real> trial,
+                                                    Real p0) {
   const Real centre = (0.5 * (1 - y.cohesion)) * p0;
   const Real off = trial.p - centre;
   const Real half_axis = (0.5 * (1 + y.cohesion)) * p0;

@@ -34,7 +34,8 @@ std::vector<MaterialPoint<Dim>> filled_box(const SnowBox<Dim>& box, const SnowLa
         Point<Dim> local;
         for (int d = 0; d < Dim; ++d) {
           const double moved = jitter > 0 ? jitter * (2 * random.uniform() - 1) : 0;
-          local[d] = (static_cast<double>(at[d]) + 0.5 + moved) * box.size[d] / static_cast<double>(counts[d]);
+          local[d] =
+              (static_cast<double>(at[d]) + 0.5 + moved) * box.size[d] / static_cast<double>(counts[d]);
         }
         MaterialPoint<Dim> point;
         point.place = box.corner + box.axes * local;

@@ -13,7 +13,9 @@ double SnowLaw::lame_modulus() const {
   return youngs_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
 }
 double SnowLaw::bulk_modulus() const { return youngs_modulus / (3 - 6 * poisson_ratio); }
-double SnowLaw::bulk_modulus(int dimensions) const { return lame_modulus() + 2 * shear_modulus() / dimensions; }
+double SnowLaw::bulk_modulus(int dimensions) const {
+  return lame_modulus() + 2 * shear_modulus() / dimensions;
+}
 double SnowLaw::wave_speed() const { return std::sqrt((lame_modulus() + 2 * shear_modulus()) / density); }
 double SnowLaw::initial_compaction() const {
   return yield == Yield::cam_clay ? std::asinh(consolidation / bulk_modulus()) / hardening : 0;

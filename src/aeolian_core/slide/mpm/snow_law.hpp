@@ -25,11 +25,11 @@ struct SnowLaw {
   double cohesion = 0.2;        ///< beta: isotropic tensile strength over p0
   double hardening = 0.1;       ///< xi
 
-  double shear_modulus() const;              ///< mu [Pa]
-  double lame_modulus() const;               ///< lambda [Pa]
-  double bulk_modulus() const;               ///< K = E / (3 - 6 nu), of three dimensions: that of hardening [Pa]
-  double bulk_modulus(int dimensions) const; ///< K_d = lambda + 2 mu / d: that of the elastic step [Pa]
-  double wave_speed() const;                 ///< of pressure waves, sqrt((lambda + 2 mu) / rho) [m/s]
+  double shear_modulus() const;  ///< mu [Pa]
+  double lame_modulus() const;   ///< lambda [Pa]
+  double bulk_modulus() const;   ///< K = E / (3 - 6 nu), of three dimensions: that of hardening [Pa]
+  double bulk_modulus(int dimensions) const;  ///< K_d = lambda + 2 mu / d: that of the elastic step [Pa]
+  double wave_speed() const;                  ///< of pressure waves, sqrt((lambda + 2 mu) / rho) [m/s]
   /// alpha at which p0 is what it is at the beginning: asinh(p0 / K) / xi.
   double initial_compaction() const;
   /// p0 [Pa] after a plastic compaction alpha: K sinh(xi max(alpha, 0)), at least 1e-5 K.

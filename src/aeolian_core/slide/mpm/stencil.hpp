@@ -32,9 +32,9 @@ struct Stencil {
   }
 
   Lanes weight[Dim][3];
-  Lanes slope[Dim][3];  ///< derivative of the weight [1/m]
-  Lanes offset[Dim];    ///< first node minus particle [m]
-  int base[lane_count]; ///< index of the first node
+  Lanes slope[Dim][3];   ///< derivative of the weight [1/m]
+  Lanes offset[Dim];     ///< first node minus particle [m]
+  int base[lane_count];  ///< index of the first node
 };
 
 /// The first node that a block's particles reach, in cells.

@@ -16,16 +16,17 @@ constexpr int symmetric_index(int row, int column) {
 /// One rotation of Jacobi's method: makes the element (p, q) of the symmetric matrix `a` zero, and turns the
 /// columns p, q of `axes`. r is the third index.
 template <class Real>
-AEOLIAN_INLINE void turn_to_axes(Real& app, Real& aqq, Real& apq, Real& apr, Real& aqr, Real axes[3][3], int p,
-                                 int q) {
+AEOLIAN_INLINE void turn_to_axes(Real& app, Real& aqq, Real& apq, Real& apr, Real& aqr, Real axes[3][3],
+                                 int p, int q) {
   // tan of the angle: the smaller root of t^2 + 2 theta t - 1 = 0, written without a division by apq.
   const Real difference = aqq - app;
   const Real twice = 2.0 * apq;
   const Real root = square_root(difference * difference + twice * twice);
   const Real denominator = size_of(difference) + root;
   const Real signed_twice = difference < 0.0 ? -twice : twice;
-  const Real tangent = denominator > 0.0 ? signed_twice / (denominator > 0.0 ? denominator : constant<Real>(1))
-                                         : constant<Real>(0);
+  const Real tangent = denominator > 0.0
+                           ? signed_twice / (denominator > 0.0 ? denominator : constant<Real>(1))
+                           : constant<Real>(0);
   const Real cosine = 1.0 / square_root(tangent * tangent + 1.0);
   const Real sine = tangent * cosine;
   app -= tangent * apq;
@@ -61,7 +62,8 @@ AEOLIAN_INLINE void principal_axes(const Real matrix[6], Real values[3], Real ax
   for (int k = 0; k < 3; ++k) values[k] = a[k];
 }
 
-/// What a function of a symmetric matrix needs of it: eigenvalues, and how to build a matrix of the same axes.
+/// What a function of a symmetric matrix needs of it: eigenvalues, and how to build a matrix of the same
+/// axes.
 template <int Dim, class Real>
 class Spectrum;
 

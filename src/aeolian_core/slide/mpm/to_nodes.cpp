@@ -46,7 +46,8 @@ AEOLIAN_INLINE NodeRamp<Dim> affine_ramp(const Pack<Dim>& pack, const Stencil<Di
 AEOLIAN_INLINE void add_ramp(const NodeRamp<2>& ramp, const Stencil<2>& s, int lane, Lanes* nodes) {
   for (int j = 0; j < 3; ++j) {
     Lanes* const row = nodes + j * reach_nodes;
-    const Lanes start = s.weight[1][j][lane] * (ramp.first[lane] + static_cast<double>(j) * ramp.along[1][lane]);
+    const Lanes start =
+        s.weight[1][j][lane] * (ramp.first[lane] + static_cast<double>(j) * ramp.along[1][lane]);
     const Lanes step = s.weight[1][j][lane] * ramp.along[0][lane];
     row[0] += s.weight[0][0][lane] * start;
     row[1] += s.weight[0][1][lane] * (start + step);
@@ -91,8 +92,7 @@ AEOLIAN_INLINE void add_flip(const Pack<Dim>& pack, const Stencil<Dim>& s, Lanes
   Lanes stress[Dim][lane_count];
   for (int c = 0; c < Dim; ++c) {
     for (int k = 0; k < 4; ++k) rows[k] = constant<Lanes>(0);
-    for (int row = 0; row < Dim; ++row)
-      rows[row] = -(pack.volume * pack.tau[symmetric_index<Dim>(row, c)]);
+    for (int row = 0; row < Dim; ++row) rows[row] = -(pack.volume * pack.tau[symmetric_index<Dim>(row, c)]);
     to_particles(rows, stress[c]);
   }
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -126,7 +126,8 @@ AEOLIAN_INLINE void add_particles(ParticleBlock<Dim>& block, const TransferStep&
       add_flip<Dim>(pack, stencil, momentum, force);
     } else {
       const NodeRamp<Dim> ramp = affine_ramp<Dim>(pack, stencil, step);
-      for (int lane = 0; lane < lane_count; ++lane) add_ramp(ramp, stencil, lane, momentum + stencil.base[lane]);
+      for (int lane = 0; lane < lane_count; ++lane)
+        add_ramp(ramp, stencil, lane, momentum + stencil.base[lane]);
     }
   }
 }

@@ -16,11 +16,11 @@ enum class Transfer {
 template <int Dim>
 void to_nodes(ParticleBlock<Dim>& block, const TransferStep& step, Transfer transfer);
 
-/// Grid to particles: takes velocities of the nodes that the block reaches (for FLIP also those before forces),
-/// moves the particles, strains them and lets them yield. Tells the block's fastest particle.
+/// Grid to particles: takes velocities of the nodes that the block reaches (for FLIP also those before
+/// forces), moves the particles, strains them and lets them yield. Tells the block's fastest particle.
 template <int Dim>
-void from_nodes(ParticleBlock<Dim>& block, const ReachedNodes<Dim>& velocity,
-                const ReachedNodes<Dim>& before, const YieldConstants& law, const TransferStep& step, Transfer transfer);
+void from_nodes(ParticleBlock<Dim>& block, const ReachedNodes<Dim>& velocity, const ReachedNodes<Dim>& before,
+                const YieldConstants& law, const TransferStep& step, Transfer transfer);
 
 /// The stress that belongs to the block's elastic state, without flow.
 template <int Dim>

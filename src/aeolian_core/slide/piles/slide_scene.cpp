@@ -9,14 +9,15 @@
 namespace aeolian {
 namespace {
 
-constexpr double gap_cells = 0.25;        ///< between panel and slab, where contact begins
-constexpr double panel_least_cells = 4;   ///< thickness
+constexpr double gap_cells = 0.25;       ///< between panel and slab, where contact begins
+constexpr double panel_least_cells = 4;  ///< thickness
 
 double panel_thickness(const SlideScene& scene) { return panel_least_cells * scene.cell; }
 
 double centre_height(const SlideScene& scene) {
   const double half_drop = 0.5 * scene.panel_length * std::sin(scene.tilt);
-  return scene.height_of == SlideScene::HeightOf::centre ? scene.panel_height : scene.panel_height + half_drop;
+  return scene.height_of == SlideScene::HeightOf::centre ? scene.panel_height
+                                                         : scene.panel_height + half_drop;
 }
 
 template <int Dim>
@@ -27,9 +28,7 @@ std::shared_ptr<const Shape<Dim>> ground_shape(const SlideScene& scene) {
 
 }  // namespace
 
-double SlideScene::lower_edge() const {
-  return centre_height(*this) - 0.5 * panel_length * std::sin(tilt);
-}
+double SlideScene::lower_edge() const { return centre_height(*this) - 0.5 * panel_length * std::sin(tilt); }
 
 PileRules SlideScene::rules() const {
   PileRules rules;
@@ -43,23 +42,26 @@ void check(const SlideScene& scene, int dimensions) {
   constexpr double far = 1e4;
   require(scene.panel_length > 0 && scene.panel_length <= far, "panel length", scene.panel_length,
           "above 0 and at most 1e4 m");
-  require(scene.tilt > 0 && scene.tilt < M_PI / 2, "tilt", scene.tilt * 180 / M_PI, "above 0 and below 90 degrees");
-  require(scene.slab_thickness > 0 && scene.slab_thickness <= far, "thickness of the slab", scene.slab_thickness,
-          "positive");
+  require(scene.tilt > 0 && scene.tilt < M_PI / 2, "tilt", scene.tilt * 180 / M_PI,
+          "above 0 and below 90 degrees");
+  require(scene.slab_thickness > 0 && scene.slab_thickness <= far, "thickness of the slab",
+          scene.slab_thickness, "positive");
   require(scene.cell > 0 && scene.cell <= scene.slab_thickness, "cell", scene.cell,
           "above 0 and at most the thickness of the slab");
-  require(scene.panel_friction >= 0 && scene.panel_friction <= 10, "friction of the panel", scene.panel_friction,
-          "from 0 to 10");
+  require(scene.panel_friction >= 0 && scene.panel_friction <= 10, "friction of the panel",
+          scene.panel_friction, "from 0 to 10");
   require(scene.jitter >= 0 && scene.jitter <= 0.5, "jitter", scene.jitter, "from 0 to 0.5");
   require(scene.particles_per_cell >= 1 && scene.particles_per_cell <= 1000, "particles per cell",
           scene.particles_per_cell, "from 1 to 1000");
   require(std::isfinite(scene.panel_height), "height of the panel", scene.panel_height, "finite");
   require(scene.still > 0, "speed of stillness", scene.still, "positive");
   require(scene.still_for >= 0, "time of stillness", scene.still_for, "at least 0 s");
-  require(scene.longest > 0 && scene.longest <= 3600, "longest event", scene.longest, "above 0 and at most 3600 s");
+  require(scene.longest > 0 && scene.longest <= 3600, "longest event", scene.longest,
+          "above 0 and at most 3600 s");
   require(scene.stuck_after > 0, "time after which a slab is stuck", scene.stuck_after, "positive");
   if (dimensions == 3) {
-    require(scene.slab_width > 0 && scene.slab_width <= far, "width of the slab", scene.slab_width, "positive");
+    require(scene.slab_width > 0 && scene.slab_width <= far, "width of the slab", scene.slab_width,
+            "positive");
     require(scene.panel_width >= scene.slab_width && scene.panel_width <= far, "width of the panel",
             scene.panel_width, "at least that of the slab");
   }
@@ -118,10 +120,10 @@ std::vector<MaterialPoint<Dim>> slab_of(const SlideScene& scene, int event) {
   return filled_box(box, scene.snow, scene.cell, scene.particles_per_cell, scene.jitter, seed);
 }
 
-#define AEOLIAN_FOR(Dim)                                                          \
-  template PanelFrame<Dim> panel_frame(const SlideScene&);                        \
-  template std::vector<Obstacle<Dim>> obstacles_of(const SlideScene&);            \
-  template double ground_under<Dim>(const SlideScene&, const Point<Dim>&);        \
+#define AEOLIAN_FOR(Dim)                                                   \
+  template PanelFrame<Dim> panel_frame(const SlideScene&);                 \
+  template std::vector<Obstacle<Dim>> obstacles_of(const SlideScene&);     \
+  template double ground_under<Dim>(const SlideScene&, const Point<Dim>&); \
   template std::vector<MaterialPoint<Dim>> slab_of(const SlideScene&, int);
 AEOLIAN_FOR(2)
 AEOLIAN_FOR(3)

@@ -7,8 +7,8 @@
 
 namespace aeolian {
 
-/// A tilted panel with a slab of snow on it, and the ground below. The panel's centre is above the origin, snow
-/// slides towards x. In two dimensions all is per metre of width. Made like this: the laboratory's at 40
+/// A tilted panel with a slab of snow on it, and the ground below. The panel's centre is above the origin,
+/// snow slides towards x. In two dimensions all is per metre of width. Made like this: the laboratory's at 40
 /// degrees (Frischholz, tables 2.3.1 and 3.4.1).
 struct SlideScene {
   enum class HeightOf { centre, lower_edge };
@@ -37,8 +37,8 @@ struct SlideScene {
   int threads = 0;
   double still = 0.02;      ///< an event is over when no particle has been faster [m/s] ...
   double still_for = 0.25;  ///< ... for so long [s]
-  double longest = 6;        ///< that an event may take [s]
-  double stuck_after = 1;    ///< a slab that has not left by then and does not move is stuck [s]
+  double longest = 6;       ///< that an event may take [s]
+  double stuck_after = 1;   ///< a slab that has not left by then and does not move is stuck [s]
 
   /// Takes the layer `elevation`; without a map the ground is level.
   std::optional<HeightMap> ground;

@@ -84,26 +84,27 @@ std::optional<SlideEvent<Dim>> SlideSeries<Dim>::next(const Watch& watch) {
     calm = world.fastest() < scene_.still ? calm + frame_time : 0;
     if (calm < scene_.still_for) continue;
     event.snow = world.points();
-    const auto there = std::count_if(event.snow.begin() + static_cast<std::ptrdiff_t>(pile_.size()),
-                                     event.snow.end(),
-                                     [&](const auto& p) { return on_panel<Dim>(scene_, p.place); });
+    const auto there =
+        std::count_if(event.snow.begin() + static_cast<std::ptrdiff_t>(pile_.size()), event.snow.end(),
+                      [&](const auto& p) { return on_panel<Dim>(scene_, p.place); });
     on = static_cast<double>(there) / static_cast<double>(slab.size());
     event.still = on < 0.5;
     if (event.still || world.time() > scene_.stuck_after) break;
   }
   event.snow = world.points();
   if (!event.still && on > 0.5 && world.fastest() < scene_.still)
-    throw Error(fmt::format(
-        "slide: the slab of event {} is stuck on the panel after {:.2g} s: friction {:g} holds snow on {:g} degrees",
-        event.number, world.time(), scene_.panel_friction, scene_.tilt * 180 / M_PI));
+    throw Error(
+        fmt::format("slide: the slab of event {} is stuck on the panel after {:.2g} s: friction {:g} holds "
+                    "snow on {:g} degrees",
+                    event.number, world.time(), scene_.panel_friction, scene_.tilt * 180 / M_PI));
   event.duration = world.time();
   event.work = world.work();
-  const auto kept = std::stable_partition(event.snow.begin(), event.snow.end(), [&](const auto& p) {
-    return !on_panel<Dim>(scene_, p.place);
-  });
+  const auto kept = std::stable_partition(event.snow.begin(), event.snow.end(),
+                                          [&](const auto& p) { return !on_panel<Dim>(scene_, p.place); });
   for (auto p = kept; p != event.snow.end(); ++p) event.left_behind += p->mass;
   event.snow.erase(kept, event.snow.end());
-  if (event.snow.empty()) throw Error(fmt::format("slide: nothing has left the panel in event {}", event.number));
+  if (event.snow.empty())
+    throw Error(fmt::format("slide: nothing has left the panel in event {}", event.number));
   event.mass = total_mass(event.snow);
   event.density = mean_density(scene_.snow, event.snow);
   std::vector<Point<Dim>> places;
@@ -142,7 +143,8 @@ std::vector<MaterialPoint<Dim>> SlideSeries<Dim>::carried_over(
     for (int d = 0; d < Dim; ++d)
       box.corner[d] = static_cast<double>(place[static_cast<std::size_t>(d)]) * scene_.cell;
     box.size = Point<Dim>::Constant(scene_.cell);
-    for (const auto& p : filled_box(box, scene_.snow, scene_.cell, scene_.particles_per_cell)) result.push_back(p);
+    for (const auto& p : filled_box(box, scene_.snow, scene_.cell, scene_.particles_per_cell))
+      result.push_back(p);
   }
   const double mass = total_mass(snow) / static_cast<double>(result.size());
   for (auto& p : result) p.mass = mass;
@@ -180,8 +182,8 @@ HeightMap pile_map(const SlideScene& scene, const std::vector<MaterialPoint<Dim>
     const double half_size = 0.5 * std::pow(p.volume, 1. / Dim);
     highest = std::max(highest, static_cast<float>(p.place[Dim - 1] + half_size));
   }
-  // Snow hovers by up to a cell of the solver's grid over what it lies on, and a cell of the map holds a slope:
-  // two uniform distributions.
+  // Snow hovers by up to a cell of the solver's grid over what it lies on, and a cell of the map holds a
+  // slope: two uniform distributions.
   const double spread = (scene.cell * scene.cell + cell * cell) / 12;
   map.add(layer::variance, static_cast<float>(spread));
   return map;

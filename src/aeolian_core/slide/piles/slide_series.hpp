@@ -9,15 +9,15 @@ namespace aeolian {
 /// What an event has left.
 template <int Dim>
 struct SlideEvent {
-  int number = 0;  ///< from 1; STEP of the thesis is one less
-  PileSize pile;   ///< heights above the ground
+  int number = 0;                        ///< from 1; STEP of the thesis is one less
+  PileSize pile;                         ///< heights above the ground
   std::vector<MaterialPoint<Dim>> snow;  ///< pile and what lies beside it
-  double duration = 0;      ///< [s]
-  bool still = false;       ///< whether the snow had come to rest, or the time was over
-  double mass = 0;          ///< of `snow` [kg], in two dimensions per metre
-  double left_behind = 0;   ///< mass that stayed on the panel, and is cleared off it [kg]
-  double density = 0;       ///< of the pile: mass over the volume of its particles [kg/m^3]
-  double fastest = 0;       ///< speed in the whole event [m/s]
+  double duration = 0;                   ///< [s]
+  bool still = false;                    ///< whether the snow had come to rest, or the time was over
+  double mass = 0;                       ///< of `snow` [kg], in two dimensions per metre
+  double left_behind = 0;                ///< mass that stayed on the panel, and is cleared off it [kg]
+  double density = 0;                    ///< of the pile: mass over the volume of its particles [kg/m^3]
+  double fastest = 0;                    ///< speed in the whole event [m/s]
   MpmWork work;
 };
 
@@ -29,8 +29,8 @@ struct SlideMoment {
   const MaterialPoints<Dim>& snow;
 };
 
-/// Events one after another: a slab on the panel, its release, fall and rest, the next one on top (Frischholz,
-/// section 3.3 of the specification).
+/// Events one after another: a slab on the panel, its release, fall and rest, the next one on top
+/// (Frischholz, section 3.3 of the specification).
 template <int Dim>
 class SlideSeries {
  public:
