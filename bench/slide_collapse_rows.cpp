@@ -55,7 +55,7 @@ void slide_collapse_rows(AccuracyTable& table) {
       "width. "
       "Targets: Lube et al. (2005) for columns in a channel, run-out over half width 1.2 a up to a = 1.8, "
       "1.9 a^(2/3) above; height over half width a up to a = 1.15, a^0.4 above. Lajeunesse et al. (2005) "
-      "have the same run-out laws, and a^(1/3) for the height. (Lube 2004 is of round columns.)");
+      "find the same powers for the run-out, and a^(1/3) for the height. (Lube 2004 is of round columns.)");
   for (const double a : {0.5, 1., 2., 4.}) {
     const Deposit ours = collapse(a);
     table.relative_row(fmt::format("a = {:g}: run-out over half width", a),

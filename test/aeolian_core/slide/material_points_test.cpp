@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "error_of.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/slide/mpm/snow_body.hpp"

@@ -1,6 +1,6 @@
 #include "aeolian_core/slide/calibration/rescaled_score.hpp"
 
-#include "error_of.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

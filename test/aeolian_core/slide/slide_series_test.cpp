@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "error_of.hpp"
+#include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {

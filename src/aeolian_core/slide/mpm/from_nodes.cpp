@@ -145,8 +145,10 @@ AEOLIAN_INLINE void move_particles(ParticleBlock<Dim>& block, const Lanes* veloc
       speed += moved[d] * moved[d];
     }
     fastest = larger(fastest, there ? speed : constant<Lanes>(0));
+    constexpr double beyond_all = 1e30;  // also what is no number counts as this
     const Lanes strained = strain<Dim>(pack.b, pack.affine, step.dt);
-    most = larger(most, there ? strained : constant<Lanes>(0));
+    const Lanes told = strained + speed < beyond_all ? strained : constant<Lanes>(beyond_all);
+    most = larger(most, there ? told : constant<Lanes>(0));
     flow_and_stress<Dim, Lanes>(law, pack.b, pack.alpha, pack.tau);
   }
   block.fastest = 0;
