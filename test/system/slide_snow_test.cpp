@@ -17,7 +17,7 @@ const std::string config =
     "name: small\n"
     "snow: {density_kg_m3: 210, youngs_modulus_mpa: 0.5, poisson_ratio: 0.3, m: 0.5, p0_kpa: 7, beta: 0.2, "
     "xi: 0.1}\n"
-    "panel: {length_m: 0.12, width_m: 0.1, tilt_deg: 45, height_m: 0.12, height_of: centre, friction: 0.3}\n"
+    "panel: {length_m: 0.12, width_m: 0.1, tilt_deg: 45, height_m: 0.25, height_of: centre, friction: 0.2}\n"
     "slab: {thickness_m: 0.02, width_m: 0.06}\n"
     "grid: {cell_m: 0.01, particles_per_cell: 4, transfer: apic}\n"
     "events: 2\n"
@@ -70,7 +70,7 @@ TEST_F(SlideSnow, RefusesBadScenesInOneLine) {
                  "bad.yaml:5: grid.transfer is 'pic', must be apic or flip");
   expect_refusal("events: 2", "evnts: 2", "bad.yaml: there is no key 'events'");
   expect_refusal(
-      "height_m: 0.12", "height_m: 0.01",
+      "height_m: 0.25", "height_m: 0.01",
       "slide: the lower edge of the panel above the ground is -0.0607107, must be positive: it is four cells "
       "thick, and must not be in the ground");
   const Outcome missing = run("--config nothing.yaml --out results");
