@@ -1,6 +1,10 @@
 #pragma once
 
-/// The room `slide`: snow that slides off and piles up.
+/// The room `slide`: snow that slides off a panel and piles up, after Frischholz (see the specification).
 ///
-/// It will hold the material point method and its surrogate after Frischholz (see the specification). Nothing
-/// that the twin does today needs it, so there is no code here yet.
+/// `mpm/` is the material point method for cohesive snow among obstacles, `piles/` what happens at a panel,
+/// event by event, and how a pile is measured.
+
+#include "aeolian_core/slide/mpm/material_points.hpp"
+#include "aeolian_core/slide/piles/pile_measure.hpp"
+#include "aeolian_core/slide/piles/slide_series.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "aeolian_core/grains/dynamics/contact_law.hpp"
-#include "aeolian_core/grains/dynamics/lanes.hpp"
+#include "aeolian_core/surface/lanes.hpp"
 
 namespace aeolian {
 

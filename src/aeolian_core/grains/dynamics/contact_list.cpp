@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "aeolian_core/grains/dynamics/lanes.hpp"
+#include "aeolian_core/surface/lanes.hpp"
 
 namespace aeolian {
 

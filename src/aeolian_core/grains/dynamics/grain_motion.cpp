@@ -1,6 +1,6 @@
 #include "aeolian_core/grains/dynamics/grain_motion.hpp"
 
-#include "aeolian_core/grains/dynamics/lanes.hpp"
+#include "aeolian_core/surface/lanes.hpp"
 #include "aeolian_core/surface/kernel.hpp"
 
 namespace aeolian {
