@@ -206,7 +206,7 @@ TEST(Launcher, nothing_leaves_in_the_lee) {
   HeightMap::Layer& height = map.add(layer::elevation, 0);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 200; ++x)
-      height[map.geometry().index(x, y)] = static_cast<float>(0.03 * std::exp(-std::pow((x - 100) / 8.0, 2)));
+      height[map.geometry().index(x, y)] = static_cast<float>(std::max(0.0, 0.03 * std::exp(-std::pow((x - 100) / 8.0, 2)) - 1e-4));
   const ErodibleBed bed(map, 1.5e-4, true);
   for (const Shelter shelter : {Shelter::ray, Shelter::slope}) {
     ErosionParameters p;
@@ -251,15 +251,14 @@ TEST(Snow, sintered_snow_goes_only_at_edges_and_only_above_its_threshold) {
 
 TEST(Snow, melting_freezes_the_pattern) {
   HeightMap map = sand_bed(64, 64);
-  const HeightMap::Layer before = map.layer(layer::elevation);
+  const double volume_before = volume(map);
   ErosionParameters p;
   p.snow = SnowBonding{};
   p.snow->temperature = 1;
   ParticleErosion model(p);
   model.advance(map, wind_of(0.6), drifting_snow(), 1);
   model.advance(map, wind_of(0.6), drifting_snow(), 600);
-  EXPECT_EQ(count_known(map.layer(layer::elevation)), before.size());
-  EXPECT_NEAR(volume(map) + model.airborne_volume(), 0.0321 * 0.1024, 0.05 * 0.1024 * 0.03);
+  EXPECT_NEAR(volume(map) + model.airborne_volume(), volume_before, 1e-6 * volume_before);
   HeightMap frozen = map;
   model.advance(map, wind_of(0.8), drifting_snow(), 600);
   EXPECT_EQ(map.layer(layer::elevation), frozen.layer(layer::elevation));
