@@ -94,7 +94,7 @@ struct ErosionParameters {
   /// then not used.
   struct Pool {
     double parcels_per_cell = 200000.0 / 65536;
-    double chance = 0.01;
+    double chance = 0.004;
   };
   std::optional<Pool> pool;
 

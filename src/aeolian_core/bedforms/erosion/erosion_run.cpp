@@ -14,9 +14,9 @@ namespace {
 constexpr int settling_sweeps = 2000;      ///< of a new map's slopes
 constexpr double still_air_speed = 10;     ///< for steps without wind [m/s]
 constexpr double steps_of_a_hop = 15;      ///< at least
-constexpr double launches_of_a_round = 0.02;  ///< per cell
+constexpr double launches_of_a_round = 0.05;  ///< per cell
 constexpr double remembered = 0.95;        ///< from one interval to the next
-constexpr double least_pace = 0.2;         ///< so that what lies in shelter does not stop the clock
+constexpr double least_pace = 0.6;         ///< so that what lies in shelter does not stop the clock
 constexpr double most_pace = 5;
 constexpr int awake_every = 20;            ///< intervals, for snow
 constexpr std::size_t sorted_above = std::size_t{1} << 18;  ///< cells, of which a cache holds only some
@@ -83,7 +83,7 @@ double ErosionRun::iterate(std::int64_t steps) {
   for (std::int64_t n = 0; n < steps; ++n) {
     if (n % p_.slide_every == 0) launcher_->find_awake();
     const double passed = fly_step();
-    let_snow_lie(passed);
+    let_snow_lie(passed, true);
     if (++since_slides_ >= p_.slide_every) settle_slopes(p_.slide_sweeps);
     time += passed;
   }
@@ -98,7 +98,7 @@ double ErosionRun::interval(double left) {
     const bool snows = snow_ && p_.snow->snowfall > 0;
     const double bulk = grain_.density * (1 - grain_.porosity);
     const double time = snows ? std::min(left, bed_.parcel() * bulk / p_.snow->snowfall) : left;
-    let_snow_lie(time);
+    let_snow_lie(time, true);
     if (snows && drift_->blows()) settle_slopes(p_.slide_sweeps);
     return time;
   }
@@ -127,7 +127,7 @@ double ErosionRun::interval(double left) {
     const double each = p_.acceleration * step_time_ * pace_;
     if (left + owed_time_ < each) {
       owed_time_ += left;
-      let_snow_lie(left);
+      let_snow_lie(left, true);
       return left;
     }
     const double whole = std::floor((left + owed_time_) / each);
@@ -138,7 +138,7 @@ double ErosionRun::interval(double left) {
     passed = std::min(left, steps * each - owed_time_);
     owed_time_ = 0;
   }
-  let_snow_lie(passed);
+  let_snow_lie(passed, passed >= left);
   if (since_slides_ >= p_.slide_every) settle_slopes(p_.slide_sweeps);
   return passed;
 }
@@ -155,8 +155,13 @@ void ErosionRun::set_pace(double seconds) {
   pace_ = due_ > 0 ? std::clamp(carried_ / due_, least_pace, most_pace) : 1;
 }
 
-void ErosionRun::let_snow_lie(double time) {
-  if (snow_) balance_.inflow += snow_->advance(bed_, time, grain_.density * (1 - grain_.porosity));
+/// Lets snow age, fall and sinter, some intervals at a time.
+void ErosionRun::let_snow_lie(double time, bool at_once) {
+  if (!snow_) return;
+  lying_ += time;
+  if (!at_once && since_awake_ % awake_every != 0) return;
+  balance_.inflow += snow_->advance(bed_, lying_, grain_.density * (1 - grain_.porosity));
+  lying_ = 0;
 }
 
 void ErosionRun::settle_slopes(int sweeps) {

@@ -49,7 +49,7 @@ class ErosionRun {
   static float just_above(float ground) { return ground + std::max(2e-6F, 3e-7F * std::abs(ground)); }
   double interval(double left);
   void set_pace(double seconds);
-  void let_snow_lie(double time);
+  void let_snow_lie(double time, bool at_once);
   void settle_slopes(int sweeps);
   double fly_step();
   void launch(double attempts);
@@ -82,6 +82,7 @@ class ErosionRun {
   /// Time of the bed over what launches on a flat one would make of it, from what was carried lately over
   /// what the saturated flux would have carried [m^4].
   double pace_ = 1, carried_ = 0, due_ = 0, counted_ = 0;
+  double lying_ = 0;  ///< time that the snow has not been told of [s]
   int since_slides_ = 0;
   std::int64_t since_awake_ = 0;  ///< was last looked at: intervals
   ErosionCounts counts_;

@@ -13,21 +13,30 @@ int on_axis(int i, int n, bool periodic) {
 
 }  // namespace
 
-Spread::Spread(const ErodibleBed& bed, float x, float y, bool bilinear) : count_(bilinear ? 4 : 1) {
+Spread::Spread(const ErodibleBed& bed, float x, float y, bool bilinear) {
   const int nx = bed.geometry().nx();
   const int ny = bed.geometry().ny();
-  const float west = std::floor(x);
-  const float south = std::floor(y);
-  const float tx = x - west;
-  const float ty = y - south;
+  // Four different cells, or what is taken from one would be counted twice.
+  count_ = bilinear && nx > 1 && ny > 1 ? 4 : 1;
+  if (!bed.periodic()) {
+    x = std::clamp(x, 0.0F, static_cast<float>(nx - 1));
+    y = std::clamp(y, 0.0F, static_cast<float>(ny - 1));
+  }
+  const auto before = [&bed](float place, int n) {
+    const int i = static_cast<int>(std::floor(place));
+    return bed.periodic() ? i : std::min(i, std::max(n - 2, 0));
+  };
+  const int west = before(x, nx);
+  const int south = before(y, ny);
+  const float tx = x - static_cast<float>(west);
+  const float ty = y - static_cast<float>(south);
   const int near_x = tx < 0.5F ? 0 : 1;
   const int near_y = ty < 0.5F ? 0 : 1;
   for (int n = 0; n < count_; ++n) {
     const int dx = n & 1 ? 1 - near_x : near_x;
     const int dy = n & 2 ? 1 - near_y : near_y;
     const auto i = static_cast<std::size_t>(n);
-    cells_[i] = {on_axis(static_cast<int>(west) + dx, nx, bed.periodic()),
-                 on_axis(static_cast<int>(south) + dy, ny, bed.periodic())};
+    cells_[i] = {on_axis(west + dx, nx, bed.periodic()), on_axis(south + dy, ny, bed.periodic())};
     weights_[i] = (dx ? tx : 1 - tx) * (dy ? ty : 1 - ty);
   }
 }
