@@ -2,9 +2,8 @@
 //
 //     ./twin bench erosion_accuracy
 
-#include <fmt/format.h>
-
 #include "erosion_rows.hpp"
+#include <fmt/format.h>
 
 int main() {
   aeolian::AccuracyTable table;

@@ -1,14 +1,14 @@
-/// Speed of erosion by parcels: updates in full flight against the thesis' case and against a plain copy of as
-/// many bytes, hops by table, larger maps, a thin cover; error against run time over step and table.
+/// Speed of erosion by parcels: updates in full flight against the thesis' case and against a plain copy of
+/// as many bytes, hops by table, larger maps, a thin cover; error against run time over step and table.
 
 #include <cmath>
 
+#include "copy_speed.hpp"
+#include "erosion_rows.hpp"
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
 #include "aeolian_core/bedforms/erosion/hop_table.hpp"
-#include "copy_speed.hpp"
-#include "erosion_rows.hpp"
 
 namespace aeolian {
 namespace {
@@ -37,8 +37,7 @@ void full_flight(benchmark::State& state) {
   // Seven floats of a parcel are read and written.
   constexpr double bytes = 2 * 7 * sizeof(float);
   static const double copy = bench::seconds_to_copy_a_byte();
-  state.counters["of_copying"] =
-      benchmark::Counter(updates * bytes / 2 * copy, benchmark::Counter::kIsRate);
+  state.counters["of_copying"] = benchmark::Counter(updates * bytes / 2 * copy, benchmark::Counter::kIsRate);
   state.counters["in_the_air"] = static_cast<double>(model.airborne());
 }
 BENCHMARK(full_flight)
@@ -83,13 +82,16 @@ void calm(benchmark::State& state) {
 }
 BENCHMARK(calm)->Unit(benchmark::kMillisecond);
 
-HopWind golden_wind() { return {friction_velocity(10, 10, 5e-6), 5e-6, thesis_sand(), Atmosphere{1.225, 1.5e-5, 9.81}}; }
+HopWind golden_wind() {
+  return {friction_velocity(10, 10, 5e-6), 5e-6, thesis_sand(), Atmosphere{1.225, 1.5e-5, 9.81}};
+}
 
 /// A golden hop; the argument is the step in microseconds.
 void step(benchmark::State& state) {
   const double exact = flown_hop(golden_wind(), 0.414, 0.414, 1e-6).range;
   double range = 0;
-  for (auto _ : state) range = flown_hop(golden_wind(), 0.414, 0.414, 1e-6 * static_cast<double>(state.range(0))).range;
+  for (auto _ : state)
+    range = flown_hop(golden_wind(), 0.414, 0.414, 1e-6 * static_cast<double>(state.range(0))).range;
   state.counters["error_%"] = 100 * (range / exact - 1);
 }
 BENCHMARK(step)->RangeMultiplier(4)->Range(16, 16384)->Unit(benchmark::kMicrosecond);
@@ -105,7 +107,8 @@ void table_nodes(benchmark::State& state) {
     const double along = 3.9 * random.uniform();
     const double up = 0.05 + 1.4 * random.uniform();
     const double exact = flown_hop(golden_wind(), along, up, 5e-5).range;
-    worst = std::max(worst, std::abs(table.at(static_cast<float>(along), static_cast<float>(up)).range / exact - 1));
+    worst = std::max(worst,
+                     std::abs(table.at(static_cast<float>(along), static_cast<float>(up)).range / exact - 1));
   }
   state.counters["worst_error_%"] = 100 * worst;
 }

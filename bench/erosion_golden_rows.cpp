@@ -1,9 +1,9 @@
+#include "erosion_rows.hpp"
 #include <fmt/format.h>
 
 #include "aeolian_core/bedforms/erosion/drift_laws.hpp"
 #include "aeolian_core/bedforms/erosion/hop_table.hpp"
 #include "aeolian_core/saltation/drag.hpp"
-#include "erosion_rows.hpp"
 
 namespace aeolian {
 namespace {
@@ -53,7 +53,8 @@ void erosion_golden_rows(AccuracyTable& table) {
       worst = std::max(
           worst, std::abs(looked_up.at(static_cast<float>(along), static_cast<float>(up)).range / exact - 1));
     }
-    table.range_row(fmt::format("hop table at {} m/s: worst error of the range [%]", h[0]), 0, 3, 100 * worst);
+    table.range_row(fmt::format("hop table at {} m/s: worst error of the range [%]", h[0]), 0, 3,
+                    100 * worst);
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "erosion_rows.hpp"
 #include <fmt/format.h>
 #include <time.h>
 
@@ -9,7 +10,6 @@
 #include "aeolian_core/measure/ripple_statistics.hpp"
 #include "aeolian_twin/erosion/erosion_history.hpp"
 #include "aeolian_twin/erosion/terrain.hpp"
-#include "erosion_rows.hpp"
 
 namespace aeolian {
 namespace {
@@ -60,43 +60,40 @@ void literal_rows(AccuracyTable& table) {
   table.remark("1: 3000 iterations, time of the calling thread [s] (210 s in the thesis)", 8, taken);
   table.range_row("2: parcels in the air after 3000 iterations, of 200 000 [thousand]", 55, 75,
                   static_cast<double>(model.airborne()) / 1000);
-  table.statement("3: deviation grows, and to 5 times that of the beginning",
-                  fmt::format("{:.2f}, {:.2f}, {:.2f} mm from {:.3f}", deviations[0], deviations[1],
-                              deviations[2], 1000 * before),
-                  deviations[0] < deviations[1] && deviations[1] < deviations[2] &&
-                      deviations[2] > 5 * 1000 * before);
+  table.statement(
+      "3: deviation grows, and to 5 times that of the beginning",
+      fmt::format("{:.2f}, {:.2f}, {:.2f} mm from {:.3f}", deviations[0], deviations[1], deviations[2],
+                  1000 * before),
+      deviations[0] < deviations[1] && deviations[1] < deviations[2] && deviations[2] > 5 * 1000 * before);
 }
 
-/// Checks 4 and 5: the wavelength against wind and time, at equal transported volume.
+/// Checks 4 and 5: the wavelength against wind and time.
 void wavelength_rows(AccuracyTable& table) {
   const double winds[] = {10, 12, 15};
   std::vector<double> wavelength(3, 0), first(3, 0);
   double speed = 0;
-  constexpr int seeds = 3;
+  constexpr int seeds = 2;
   for (int seed = 1; seed <= seeds; ++seed)
     for (std::size_t i = 0; i < 3; ++i) {
-      HeightMap map = level_sand(512, 96, static_cast<std::uint64_t>(seed));
+      HeightMap map = level_sand(384, 64, static_cast<std::uint64_t>(seed));
       ErosionParameters p;
       p.flight = FlightMode::hop_table;
       p.seed = static_cast<std::uint64_t>(seed);
       ParticleErosion model(p);
       const WindField wind = wind_at_ten_metres(winds[i]);
-      const Atmosphere air{1.225, 1.5e-5, 9.81};
-      const double flux = saturated_sand_flux(wind.friction_velocity, 0.2434, air);
-      const double duration = 180 * 0.0042 / flux;
+      constexpr double duration = 240;
       model.advance(map, wind, thesis_sand(), duration / 2);
       const HeightMap::Layer half = map.layer(layer::elevation);
       first[i] += crest_wavelength(map.geometry(), half, 0) / seeds;
       model.advance(map, wind, thesis_sand(), 0.02 * duration);
-      const auto shift =
-          pattern_displacement(map.geometry(), half, map.layer(layer::elevation), 0, 0.03);
+      const auto shift = pattern_displacement(map.geometry(), half, map.layer(layer::elevation), 0, 0.03);
       if (shift) speed += *shift / (0.02 * duration) / (3 * seeds);
       model.advance(map, wind, thesis_sand(), 0.48 * duration);
       wavelength[i] += crest_wavelength(map.geometry(), map.layer(layer::elevation), 0) / seeds;
     }
-  const auto told = fmt::format("{:.1f}, {:.1f}, {:.1f} cm", 100 * wavelength[0], 100 * wavelength[1],
-                                100 * wavelength[2]);
-  table.statement("4: wavelength grows with wind, 10 < 12 < 15 m/s, 3 seeds, equal transported volume", told,
+  const auto told =
+      fmt::format("{:.1f}, {:.1f}, {:.1f} cm", 100 * wavelength[0], 100 * wavelength[1], 100 * wavelength[2]);
+  table.statement("4: wavelength grows with wind, 10 < 12 < 15 m/s, 2 seeds, equal time", told,
                   wavelength[0] < wavelength[1] && wavelength[1] < wavelength[2]);
   table.range_row("4: wavelength at 15 over that at 10 m/s", 1.3, 2.0, wavelength[2] / wavelength[0]);
   table.statement("4: longer than 8 cells", told,
@@ -157,7 +154,7 @@ void terrain_rows(AccuracyTable& table) {
   ParticleErosion model(p);
   std::vector<Sectors> marks;
   for (int mark = 0; mark < 3; ++mark) {
-    model.advance(hump, wind_at_ten_metres(15), thesis_sand(), 20);
+    model.advance(hump, wind_at_ten_metres(15), thesis_sand(), 60);
     marks.push_back(sectors_of(hump, 0.01));
   }
   table.range_row("6: depth in the lee of the steep hump over that to windward", 1.2, 100,
@@ -167,7 +164,8 @@ void terrain_rows(AccuracyTable& table) {
                   marks[0].bare <= marks[1].bare && marks[1].bare <= marks[2].bare && marks[2].bare > 0);
   table.range_row("7: depth at the windward toe over that at the beginning", 1.1, 10, marks[2].toe);
   const HeightMap::Layer depth = depth_of(hump);
-  table.statement("7: never below the ground", fmt::format("least {:.2g} m", *std::min_element(depth.begin(), depth.end())),
+  table.statement("7: never below the ground",
+                  fmt::format("least {:.2g} m", *std::min_element(depth.begin(), depth.end())),
                   *std::min_element(depth.begin(), depth.end()) >= 0);
 
   HeightMap valley = covered("valley", 0.03);
@@ -214,29 +212,31 @@ void lee_rows(AccuracyTable& table) {
         ++lee;
         wrong += launcher.chance({x, y}) > 0 ? 1 : 0;
       }
-  table.statement("10: no lift-off where the bed falls downwind", fmt::format("{} of {} cells lift", wrong, lee),
-                  wrong == 0);
+  table.statement("10: no lift-off where the bed falls downwind",
+                  fmt::format("{} of {} cells lift", wrong, lee), wrong == 0);
 }
 
 /// Flux against its law, and mass.
 void flux_rows(AccuracyTable& table) {
-  table.section("Saturated flux", "Transported volume over time and area, over the flux laws of the specification; flat bed, after a spin-up.");
+  table.section("Saturated flux",
+                "Transported volume over time and area, over the flux laws of the specification; flat bed, "
+                "after a spin-up.");
   const Atmosphere air{1.225, 1.5e-5, 9.81};
   const Grain sand = thesis_sand();
   for (const FlightMode mode : {FlightMode::hop_table, FlightMode::integrated})
     for (const double ratio : {1.1, 1.5, 2.0, 3.0}) {
       const double threshold = lifting_threshold(sand, air, 3e-4);
-      HeightMap map = level_sand(96, 96, 1);
+      HeightMap map = level_sand(64, 64, 1);
       ErosionParameters p;
       p.flight = mode;
       ParticleErosion model(p);
       WindField wind;
       wind.friction_velocity = ratio * threshold;
-      const double spin_up = 10 / ratio / ratio;
+      constexpr double spin_up = 10;
       model.advance(map, wind, sand, spin_up);
       const double before = model.counts().transported;
       const BedChange change = model.advance(map, wind, sand, spin_up);
-      const double flux = (model.counts().transported - before) / spin_up / (96 * 96 * cell * cell) * 2650 *
+      const double flux = (model.counts().transported - before) / spin_up / (64 * 64 * cell * cell) * 2650 *
                           (1 - sand.porosity);
       table.range_row(fmt::format("sand, {} times the threshold, {}: over the law", ratio,
                                   mode == FlightMode::hop_table ? "hop table" : "flight"),
@@ -249,7 +249,9 @@ void flux_rows(AccuracyTable& table) {
 }  // namespace
 
 void erosion_thesis_rows(AccuracyTable& table) {
-  table.section("The thesis' results", "Specification sec. 5; numbers are those of its table. Check 8 (oblique ripples on flanks) is not measured: crests are too irregular to give an angle to 5 degrees.");
+  table.section("The thesis' results",
+                "Specification sec. 5; numbers are those of its table. Check 8 (oblique ripples on flanks) "
+                "is not measured: crests are too irregular to give an angle to 5 degrees.");
   literal_rows(table);
   wavelength_rows(table);
   terrain_rows(table);

@@ -12,7 +12,7 @@ namespace {
 /// Winds from none to 40 m/s, steps of 1 us to 1 s, cells of 1 mm to 1 m, spikes, walls, holes, all borders,
 /// snow from frost to melting.
 TEST(ErosionStress, no_sand_is_lost_and_no_rock_is_dug_into) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     BedScene scene = draw_scene(seed, {seed % 4 == 0, true});
     RandomStream random(seed, 77);
     ErosionParameters p;
@@ -35,8 +35,10 @@ TEST(ErosionStress, no_sand_is_lost_and_no_rock_is_dug_into) {
     const HeightMap::Layer start = scene.map.layer(layer::elevation);
     const double depth = seed % 9 == 0 ? 0 : 2 * random.uniform() * random.uniform();
     for (std::size_t i = 0; i < ground.size(); ++i)
-      if (random.uniform() < 0.95) ground[i] = start[i] - static_cast<float>(random.uniform() < 0.5 ? 0 : depth);
-    SCOPED_TRACE(fmt::format("seed {}: {}, u* {:.2f}, step {:.1e}", seed, scene.told(), wind.friction_velocity, p.step));
+      if (random.uniform() < 0.95)
+        ground[i] = start[i] - static_cast<float>(random.uniform() < 0.5 ? 0 : depth);
+    SCOPED_TRACE(fmt::format("seed {}: {}, u* {:.2f}, step {:.1e}", seed, scene.told(),
+                             wind.friction_velocity, p.step));
     ParticleErosion model(p);
     for (int part = 0; part < 2; ++part) {
       const double duration = 300 * std::min(p.acceleration * std::min(p.step, 1e-4), 5e-3);
@@ -64,7 +66,7 @@ TEST(ErosionStress, a_long_run_keeps_every_parcel) {
   wind.friction_velocity = 0.4;
   Grain sand;
   sand.diameter = 1.5e-4;
-  for (int minute = 0; minute < 20; ++minute) {
+  for (int minute = 0; minute < 5; ++minute) {
     const BedChange change = model.advance(map, wind, sand, 60);
     ASSERT_EQ(change.volume.change, 0);
     ASSERT_EQ(change.volume.error(), 0);

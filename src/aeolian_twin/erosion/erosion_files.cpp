@@ -19,7 +19,8 @@ void write_erosion_history(const ErosionHistory& run, const std::string& folder)
                "airborne_m3", "volume_error"},
               std::vector<std::vector<double>>(8)};
   for (const ErosionMoment& m : run.moments) {
-    const double row[] = {m.time, m.deviation, m.wavelength, m.speed, m.bare, m.sintered, m.airborne, m.error};
+    const double row[] = {m.time, m.deviation, m.wavelength, m.speed,
+                          m.bare, m.sintered,  m.airborne,   m.error};
     for (std::size_t i = 0; i < table.columns.size(); ++i) table.columns[i].push_back(row[i]);
   }
   write_csv(table, folder + "/erosion.csv");
@@ -48,13 +49,14 @@ void plot_erosion_history(const ErosionHistory& run, const std::string& folder) 
          << fmt::format("set xrange [0:{:g}]\n", run.moments.back().time / 60);
   for (const Panel& panel : panels) {
     write_data(script, panel.name, panel.curve);
-    script << "set ylabel '" << panel.label << "'\nset yrange ["
-           << (&panel == &panels[2] ? "*:*" : "0:*") << "]\n"
+    script << "set ylabel '" << panel.label << "'\nset yrange [" << (&panel == &panels[2] ? "*:*" : "0:*")
+           << "]\n"
            << (&panel == &panels[3] ? "set xlabel 'time [min]'\n" : "unset xlabel\n");
     if (panel.curve.has_value() && (panel.curve.largest() > 0 || &panel == &panels[2]))
       script << "plot $" << panel.name << " using 1:2 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb forecast\n";
     else
-      script << "set label 1 'none' at graph 0.5, graph 0.5 center\nset yrange [0:1]\nplot 2\nunset label 1\n";
+      script
+          << "set label 1 'none' at graph 0.5, graph 0.5 center\nset yrange [0:1]\nplot 2\nunset label 1\n";
   }
   script << "unset multiplot\n";
   plot_svg(script.str(), 900, 900, folder + "/erosion.svg");
@@ -65,7 +67,9 @@ void write_erosion_summary(const ErosionHistory& run, const ErosionScene& scene,
   const ErosionMoment& last = run.moments.back();
   YAML::Emitter out;
   out << YAML::BeginMap;
-  const auto put = [&](const char* key, const auto& value) { out << YAML::Key << key << YAML::Value << value; };
+  const auto put = [&](const char* key, const auto& value) {
+    out << YAML::Key << key << YAML::Value << value;
+  };
   put("command", command);
   put("material", scene.snow ? "snow" : "sand");
   put("terrain", scene.terrain);

@@ -7,8 +7,8 @@
 
 namespace aeolian {
 
-/// Draws a picture of a surface from above, shaded: bare hard ground grey, loose sand ochre or loose snow white,
-/// sintered snow blue, with contour lines of the height. PNG, at least 600 pixels wide.
+/// Draws a picture of a surface from above, shaded: bare hard ground grey, loose sand ochre or loose snow
+/// white, sintered snow blue, with contour lines of the height. PNG, at least 600 pixels wide.
 void draw_surface(const HeightMap& map, const Grain& grain, bool snow, const std::string& title,
                   const std::string& path);
 

@@ -99,15 +99,16 @@ ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const WindFie
     m.wavelength = crest_wavelength(map.geometry(), depth, wind.direction);
     m.speed = unknown;
     if (!before.empty() && std::isfinite(m.wavelength)) {
-      const auto shift = pattern_displacement(map.geometry(), before, depth, wind.direction, 0.5 * m.wavelength);
+      const auto shift =
+          pattern_displacement(map.geometry(), before, depth, wind.direction, 0.5 * m.wavelength);
       if (shift) m.speed = *shift / (duration / frames);
     }
     std::size_t bare = 0, sintered = 0;
     for (std::size_t i = 0; i < depth.size(); ++i) {
       bare += depth[i] < static_cast<float>(grain.diameter) ? 1 : 0;
       if (map.has("sintered"))
-        sintered += map.layer("sintered")[i] > 0 && depth[i] - map.layer("sintered")[i] <
-                                                        static_cast<float>(grain.diameter)
+        sintered += map.layer("sintered")[i] > 0 &&
+                            depth[i] - map.layer("sintered")[i] < static_cast<float>(grain.diameter)
                         ? 1
                         : 0;
     }

@@ -13,11 +13,11 @@ struct ErosionMoment {
   double time = 0;        ///< [s]
   double deviation = 0;   ///< standard deviation of the depth on the ground, without its mean plane [m]
   double wavelength = 0;  ///< along the wind, of the peak of crests' mean spectrum [m]; NaN: none above noise
-  double speed = 0;       ///< of the pattern along the wind since the moment before [m/s]; NaN: not to be told
-  double bare = 0;        ///< share of the cells without a grain's depth of cover
-  double sintered = 0;    ///< share of the cells whose surface is sintered snow
-  double airborne = 0;    ///< volume in the air [m^3]
-  double error = 0;       ///< volume unaccounted for so far, of that moved
+  double speed = 0;     ///< of the pattern along the wind since the moment before [m/s]; NaN: not to be told
+  double bare = 0;      ///< share of the cells without a grain's depth of cover
+  double sintered = 0;  ///< share of the cells whose surface is sintered snow
+  double airborne = 0;  ///< volume in the air [m^3]
+  double error = 0;     ///< volume unaccounted for so far, of that moved
 };
 
 struct ErosionHistory {

@@ -76,7 +76,8 @@ void draw_surface(const HeightMap& map, const Grain& grain, bool snow, const std
       const bool line = hilly && on_contour(height, g, x, y, relief / contours);
       cv::Vec3b& pixel = cells.at<cv::Vec3b>(g.ny() - 1 - y, x);
       for (int k = 0; k < 3; ++k) {
-        const float value = static_cast<float>(kind.colour[static_cast<std::size_t>(2 - k)]) * lamp.factor + lamp.white;
+        const float value =
+            static_cast<float>(kind.colour[static_cast<std::size_t>(2 - k)]) * lamp.factor + lamp.white;
         pixel[k] = cv::saturate_cast<std::uint8_t>(line ? 0.5F * value : value);
       }
     }

@@ -28,7 +28,8 @@ struct ErosionScene {
   ErosionParameters chosen_parameters(std::uint64_t seed) const;
 };
 
-/// Reads a scene strictly; throws Error naming file, line and key. Temperature and the like are for snow only.
+/// Reads a scene strictly; throws Error naming file, line and key. Temperature and the like are for snow
+/// only.
 ErosionScene read_erosion_scene(const std::string& path);
 
 /// Sand or snow with what belongs to it: roughness, air, bonds. Throws Error for another material.

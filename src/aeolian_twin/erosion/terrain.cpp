@@ -12,7 +12,8 @@
 namespace aeolian {
 
 const std::vector<std::string>& terrain_names() {
-  static const std::vector<std::string> names{"flat", "hump", "steep_hump", "dune", "valley", "stakes", "step"};
+  static const std::vector<std::string> names{"flat",   "hump",   "steep_hump", "dune",
+                                              "valley", "stakes", "step"};
   return names;
 }
 

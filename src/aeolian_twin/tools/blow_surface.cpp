@@ -97,7 +97,8 @@ void blow(const Options& o, const std::string& command) {
             fmt::format("{} after {:.3g} min of {:g} m/s at {:g} m, to {:.0f} deg from east",
                         scene.snow ? "snow" : "sand", minutes, scene.wind_speed, scene.wind_height,
                         radians_to_degrees(scene.direction));
-        draw_surface(kept, scene.grain(), scene.snow, title, fmt::format("{}/frame_{:02d}.png", o.out, frame));
+        draw_surface(kept, scene.grain(), scene.snow, title,
+                     fmt::format("{}/frame_{:02d}.png", o.out, frame));
         write_geotiff(kept, fmt::format("{}/surface_{:02d}.tif", o.out, frame));
       },
       [&](double share) { bar.at(share, "blowing"); });

@@ -10,7 +10,7 @@ namespace aeolian {
 struct BounceResult {
   bool captured = false;
   Eigen::Vector3f velocity{0, 0, 0};  ///< of the rebound [m/s]
-  float pushed = 0;                   ///< grains that it would set moving in loose grains, for each of its own
+  float pushed = 0;  ///< grains that it would set moving in loose grains, for each of its own
 };
 
 /// The impact of a velocity [m/s], x and y along the grid's axes, on a bed of the given slopes eastwards and

@@ -80,7 +80,8 @@ Drift::Drift(const WindField& wind, const ErodibleBed& bed, const Grain& grain, 
     reach_.push_back(mean_reach(tables_.back()));
   }
   for (int n = 0; n < levels; ++n)
-    most_launches_ = std::max(most_launches_, launches(tables_[static_cast<std::size_t>(n)].wind().friction_velocity));
+    most_launches_ =
+        std::max(most_launches_, launches(tables_[static_cast<std::size_t>(n)].wind().friction_velocity));
 }
 
 /// Chains of hops over flat loose ground.
@@ -91,8 +92,7 @@ double Drift::mean_reach(const HopTable& table) const {
   RandomStream random(0x5eed, 0);
   double total = 0;
   for (int n = 0; n < followed; ++n) {
-    const double up =
-        u * (lift.least_factor + (lift.most_factor - lift.least_factor) * random.uniform());
+    const double up = u * (lift.least_factor + (lift.most_factor - lift.least_factor) * random.uniform());
     const double angle = lift.least_angle + (lift.most_angle - lift.least_angle) * random.uniform();
     Eigen::Vector3f v(static_cast<float>(up / std::tan(angle)), 0, static_cast<float>(up));
     for (int hop = 0; hop < most_hops; ++hop) {
@@ -122,9 +122,7 @@ double Drift::flux(double u) const {
 
 double Drift::reach(double u) const { return reach_[level(u)]; }
 
-double Drift::launches(double u) const {
-  return u > threshold_ ? flux(u) / (reach(u) * parcel_) : 0;
-}
+double Drift::launches(double u) const { return u > threshold_ ? flux(u) / (reach(u) * parcel_) : 0; }
 
 const HopTable& Drift::hops(double u) const { return tables_[level(u)]; }
 

@@ -20,9 +20,9 @@ class Drift {
   Drift(const WindField& wind, const ErodibleBed& bed, const Grain& grain,
         const ErosionParameters& parameters);
 
-  double roughness() const { return roughness_; }    ///< z0 [m]
-  double threshold() const { return threshold_; }    ///< u*_t of what bonds least, on the flat [m/s]
-  double strongest() const { return strongest_; }    ///< u* anywhere [m/s]
+  double roughness() const { return roughness_; }  ///< z0 [m]
+  double threshold() const { return threshold_; }  ///< u*_t of what bonds least, on the flat [m/s]
+  double strongest() const { return strongest_; }  ///< u* anywhere [m/s]
   bool blows() const { return strongest_ > threshold_; }
   bool uniform() const { return cells_.empty(); }
 
@@ -53,8 +53,8 @@ class Drift {
   Cell everywhere_{};
   std::vector<Cell> cells_;
   std::vector<float> shear_;
-  double level_step_ = 0;          ///< of the friction velocity between tables [m/s]
-  std::vector<HopTable> tables_;   ///< from the threshold to the strongest
+  double level_step_ = 0;         ///< of the friction velocity between tables [m/s]
+  std::vector<HopTable> tables_;  ///< from the threshold to the strongest
   std::vector<double> reach_;
 };
 

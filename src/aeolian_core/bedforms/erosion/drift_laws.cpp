@@ -21,8 +21,7 @@ double saturated_sand_flux(double friction_velocity, double threshold, const Atm
 
 double saturated_snow_flux(double friction_velocity, double threshold, const Atmosphere& air) {
   if (!(friction_velocity > threshold)) return 0;
-  return 0.68 * air.density * threshold *
-         (friction_velocity * friction_velocity - threshold * threshold) /
+  return 0.68 * air.density * threshold * (friction_velocity * friction_velocity - threshold * threshold) /
          (air.gravity * friction_velocity);
 }
 

@@ -49,9 +49,7 @@ class ErodibleBed {
 
   void add_loose(CellIndex c, std::int32_t units) { change(c, geometry_.index(c), units, 0); }
   void add_loose(std::size_t cell, std::int32_t units) { change(geometry_.cell_at(cell), cell, units, 0); }
-  void add_sintered(std::size_t cell, std::int32_t units) {
-    change(geometry_.cell_at(cell), cell, 0, units);
-  }
+  void add_sintered(std::size_t cell, std::int32_t units) { change(geometry_.cell_at(cell), cell, 0, units); }
   /// Loose grains become sintered ones.
   void sinter(std::size_t cell) { change(geometry_.cell_at(cell), cell, -loose_[cell], loose_[cell]); }
   /// All that lies on the ground becomes ground.

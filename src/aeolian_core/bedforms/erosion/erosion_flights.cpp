@@ -49,8 +49,7 @@ void ErosionRun::fly_batch(std::size_t begin, std::size_t end, Batch& batch) {
     Eigen::Vector3f v(p.vx[i], p.vy[i], p.vz[i]);
     const SurfacePatch below = patch_at(bed_, p.x[i], p.y[i]);
     const float closing = v.x() * below.slope_x + v.y() * below.slope_y - v.z();
-    const float back =
-        closing > 0 ? std::min(-p.clearance[i] / closing, static_cast<float>(step_time_)) : 0;
+    const float back = closing > 0 ? std::min(-p.clearance[i] / closing, static_cast<float>(step_time_)) : 0;
     float x = p.x[i] - back * v.x() * step_.per_cell;
     float y = p.y[i] - back * v.y() * step_.per_cell;
     if (!open) {
@@ -119,8 +118,7 @@ void ErosionRun::hop_batch(std::uint64_t first, std::uint64_t last, bool inflow,
       v = end.velocity;
       const std::int64_t near = cell_near(bed_, end.x, end.y);
       if (near < 0) break;
-      if (!impacts_.rebounds(end.x, end.y, number, hop, v, batch.transfers) ||
-          hop >= most_hops) {
+      if (!impacts_.rebounds(end.x, end.y, number, hop, v, batch.transfers) || hop >= most_hops) {
         Transfer& whole = batch.transfers[lead];
         whole.to_x = end.x;
         whole.to_y = end.y;
@@ -186,8 +184,8 @@ void ErosionRun::sort_parcels() {
     auto old = values;
     for (std::size_t i = 0; i < order.size(); ++i) values[i] = old[order[i]];
   };
-  for (std::vector<float>* values : {&parcels_.x, &parcels_.y, &parcels_.z, &parcels_.vx, &parcels_.vy,
-                                     &parcels_.vz, &parcels_.clearance})
+  for (std::vector<float>* values :
+       {&parcels_.x, &parcels_.y, &parcels_.z, &parcels_.vx, &parcels_.vy, &parcels_.vz, &parcels_.clearance})
     arrange(*values);
   arrange(parcels_.name);
   arrange(parcels_.hop);

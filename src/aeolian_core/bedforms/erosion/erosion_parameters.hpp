@@ -36,8 +36,8 @@ struct LiftOff {
   double lateral_spread = 3 * M_PI / 180;  ///< standard deviation about the wind's direction [rad]
 };
 
-/// Constants of both bounce laws (specification sec. 2.5). Parcels that lose fixed parts stop within a few hops,
-/// which makes ripples; as measured they go on for some twenty.
+/// Constants of both bounce laws (specification sec. 2.5). Parcels that lose fixed parts stop within a few
+/// hops, which makes ripples; as measured they go on for some twenty.
 struct Bounce {
   BounceLaw law = BounceLaw::attenuated;
   double normal_kept = 0.3;      ///< f_atten of the attenuated law
@@ -83,12 +83,13 @@ struct ErosionParameters {
   bool saltation_roughness = false;
 
   double parcel_thickness = 0;  ///< q, of a cell that a parcel takes away [m]; zero: a grain's diameter
-  /// Whether a parcel leaves and joins the four cells about its place, with bilinear weights; else the nearest.
+  /// Whether a parcel leaves and joins the four cells about its place, with bilinear weights; else the
+  /// nearest.
   bool spread = true;
-  double acceleration = 50;     ///< time of the bed over that of the flights: what one parcel stands for
-  double step = 1e-3;           ///< of the flight [s]; divided where cells or hops ask for it
-  int slide_every = 10;         ///< steps between sweeps of avalanches
-  int slide_sweeps = 4;         ///< at most, each time
+  double acceleration = 50;  ///< time of the bed over that of the flights: what one parcel stands for
+  double step = 1e-3;        ///< of the flight [s]; divided where cells or hops ask for it
+  int slide_every = 10;      ///< steps between sweeps of avalanches
+  int slide_sweeps = 4;      ///< at most, each time
   /// If set, so many parcels per cell exist, every idle one tries each step with this chance to leave, and
   /// time is what the transported volume takes at the saturated flux (Szabo's loop); `acceleration` is
   /// then not used.
@@ -105,8 +106,9 @@ struct ErosionParameters {
 /// Throws Error naming the parameter that is not allowed.
 void check(const ErosionParameters& parameters);
 
-/// The literal model of Szabo (2019) with its mistakes of units corrected: shelter by the slope alone, bounces
-/// that lose fixed parts, no push, no spread, 200 000 parcels on 256 x 256 cells, a third of them in the air.
+/// The literal model of Szabo (2019) with its mistakes of units corrected: shelter by the slope alone,
+/// bounces that lose fixed parts, no push, no spread, 200 000 parcels on 256 x 256 cells, a third of them in
+/// the air.
 ErosionParameters thesis_erosion();
 
 }  // namespace aeolian

@@ -11,16 +11,16 @@
 namespace aeolian {
 namespace {
 
-constexpr int settling_sweeps = 2000;      ///< of a new map's slopes
-constexpr double still_air_speed = 10;     ///< for steps without wind [m/s]
-constexpr double steps_of_a_hop = 15;      ///< at least
+constexpr int settling_sweeps = 2000;         ///< of a new map's slopes
+constexpr double still_air_speed = 10;        ///< for steps without wind [m/s]
+constexpr double steps_of_a_hop = 15;         ///< at least
 constexpr double launches_of_a_round = 0.05;  ///< per cell
-constexpr double remembered = 0.95;        ///< from one interval to the next
-constexpr double least_pace = 0.6;         ///< so that what lies in shelter does not stop the clock
+constexpr double remembered = 0.95;           ///< from one interval to the next
+constexpr double least_pace = 0.6;            ///< so that what lies in shelter does not stop the clock
 constexpr double most_pace = 5;
-constexpr int awake_every = 20;            ///< intervals, for snow
+constexpr int awake_every = 20;                             ///< intervals, for snow
 constexpr std::size_t sorted_above = std::size_t{1} << 18;  ///< cells, of which a cache holds only some
-constexpr std::int64_t sort_every = 200;   ///< steps
+constexpr std::int64_t sort_every = 200;                    ///< steps
 
 double parcel_thickness(const Grain& grain, const ErosionParameters& p) {
   check(grain);
@@ -59,13 +59,12 @@ void ErosionRun::set_wind(const WindField& wind) {
   since_awake_ = 0;
   const double u = drift_->strongest();
   const double apex = std::max(1e-4, std::pow(p_.lift_off.most_factor * u, 2) / p_.air.gravity);
-  const double fastest = drift_->blows()
-                             ? std::max(u / von_karman * std::log(std::max(apex / drift_->roughness(), 2.0)), u)
-                             : still_air_speed;
+  const double fastest =
+      drift_->blows() ? std::max(u / von_karman * std::log(std::max(apex / drift_->roughness(), 2.0)), u)
+                      : still_air_speed;
   step_time_ = std::min(p_.step, bed_.geometry().cell() / fastest);
   if (drift_->blows())
-    step_time_ =
-        std::min(step_time_, 2 * p_.lift_off.least_factor * u / p_.air.gravity / steps_of_a_hop);
+    step_time_ = std::min(step_time_, 2 * p_.lift_off.least_factor * u / p_.air.gravity / steps_of_a_hop);
   step_ = flight_step(bed_, grain_, p_.air, drift_->roughness(), step_time_);
   step_.shear = drift_->shear();
   step_.uniform_shear_x = static_cast<float>(wind.friction_velocity / von_karman * std::cos(wind.direction));
@@ -167,10 +166,10 @@ void ErosionRun::let_snow_lie(double time, bool at_once) {
 void ErosionRun::settle_slopes(int sweeps) {
   since_slides_ = 0;
   if (counts_.steps <= p_.slide_every) sweeps = std::max(sweeps, settling_sweeps);
-  const std::int64_t units = slide(bed_, std::tan(grain_.angle_of_repose), sweeps,
-                                   [&](std::size_t cell, std::int32_t moved) {
-                                     if (snow_) snow_->deposited(cell, moved);
-                                   });
+  const std::int64_t units =
+      slide(bed_, std::tan(grain_.angle_of_repose), sweeps, [&](std::size_t cell, std::int32_t moved) {
+        if (snow_) snow_->deposited(cell, moved);
+      });
   counts_.slid += static_cast<double>(units) * bed_.unit() * bed_.parcel_volume() / bed_.parcel();
 }
 
@@ -255,8 +254,8 @@ Launch ErosionRun::entry(std::uint64_t number) const {
     launch.y = wind.north >= 0 ? -0.499F : last_y;
     launch.x = -0.499F + share * (last_x + 0.499F);
   }
-  launch.cell = g.index(static_cast<int>(std::floor(launch.x + 0.5F)),
-                        static_cast<int>(std::floor(launch.y + 0.5F)));
+  launch.cell =
+      g.index(static_cast<int>(std::floor(launch.x + 0.5F)), static_cast<int>(std::floor(launch.y + 0.5F)));
   launch.velocity = launcher_->lift_off(number, launch.cell);
   return launch;
 }
@@ -265,8 +264,7 @@ void ErosionRun::give(const Transfer& t, std::int32_t units) {
   const auto settle = [this](std::size_t cell, std::int32_t part) {
     if (snow_) snow_->deposited(cell, part);
   };
-  balance_.outflow +=
-      t.outside ? units : Spread(bed_, t.to_x, t.to_y, p_.spread).give(bed_, units, settle);
+  balance_.outflow += t.outside ? units : Spread(bed_, t.to_x, t.to_y, p_.spread).give(bed_, units, settle);
 }
 
 void ErosionRun::carry_out(const Transfers& transfers) {

@@ -77,7 +77,7 @@ class ErosionRun {
   double step_time_ = 0;  ///< of the flight [s]
   Parcels parcels_;
   std::vector<Batch> batches_;
-  std::uint64_t attempts_ = 0, entries_ = 0;           ///< so far
+  std::uint64_t attempts_ = 0, entries_ = 0;                     ///< so far
   double owed_attempts_ = 0, owed_entries_ = 0, owed_time_ = 0;  ///< parts of one, of one, of a step
   /// Time of the bed over what launches on a flat one would make of it, from what was carried lately over
   /// what the saturated flux would have carried [m^4].

@@ -88,8 +88,7 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
     for (std::size_t k = 0; k < around.size(); ++k)
       if ((donor.receivers >> k & 1U) != 0 && neighbour(bed, c, around[k], n)) visit(g.index(n));
   };
-  for (const Donor& donor : donors_)
-    for_each_receiver(donor, [&](std::size_t cell) { ++givers_[cell]; });
+  for (const Donor& donor : donors_) for_each_receiver(donor, [&](std::size_t cell) { ++givers_[cell]; });
   for (const Donor& donor : donors_) {
     const int shares = __builtin_popcount(donor.receivers);
     for_each_receiver(donor, [&](std::size_t cell) {
@@ -100,8 +99,7 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
       if (units > 0) moves_.push_back({donor.cell, cell, units});
     });
   }
-  for (const Donor& donor : donors_)
-    for_each_receiver(donor, [&](std::size_t cell) { givers_[cell] = 0; });
+  for (const Donor& donor : donors_) for_each_receiver(donor, [&](std::size_t cell) { givers_[cell] = 0; });
   return moves_;
 }
 

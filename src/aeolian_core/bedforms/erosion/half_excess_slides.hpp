@@ -28,8 +28,8 @@ class SlideSweep {
  private:
   struct Donor {
     std::size_t cell;
-    float excess;           ///< over repose, towards the steepest neighbours [m]
-    std::uint8_t receivers; ///< a bit for each neighbour that is as steep
+    float excess;            ///< over repose, towards the steepest neighbours [m]
+    std::uint8_t receivers;  ///< a bit for each neighbour that is as steep
   };
   std::vector<Donor> donors_;
   std::vector<std::uint8_t> givers_;  ///< to each cell

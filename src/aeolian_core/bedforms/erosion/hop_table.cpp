@@ -18,8 +18,8 @@ Hop flown_hop(const HopWind& wind, double along, double up, double step) {
   Hop hop;
   if (!(up > 0)) return hop;
   const Grain& grain = wind.grain;
-  const double drag = 0.75 * wind.air.density / grain.density * wind.air.viscosity /
-                      (grain.diameter * grain.diameter);
+  const double drag =
+      0.75 * wind.air.density / grain.density * wind.air.viscosity / (grain.diameter * grain.diameter);
   const double reynolds = grain.diameter / wind.air.viscosity;
   const double shear = wind.friction_velocity / von_karman;
   double x = 0, z = 0, u = along, w = up, across = 1, lateral = 0;

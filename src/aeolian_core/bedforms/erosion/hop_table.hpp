@@ -11,11 +11,11 @@ namespace aeolian {
 
 /// One flight over flat ground, along the wind.
 struct Hop {
-  double range = 0;         ///< [m]
-  double time = 0;          ///< [s]
-  double apex = 0;          ///< height [m]
-  double apex_distance = 0; ///< [m]
-  double along = 0;         ///< velocity of impact [m/s]
+  double range = 0;          ///< [m]
+  double time = 0;           ///< [s]
+  double apex = 0;           ///< height [m]
+  double apex_distance = 0;  ///< [m]
+  double along = 0;          ///< velocity of impact [m/s]
   double down = 0;
   double lateral_time = 0;  ///< way across the wind over the velocity across it at the beginning [s]
   double lateral_kept = 0;  ///< part of that velocity at the end

@@ -60,9 +60,9 @@ HopEnd walk_hop(const ErodibleBed& bed, const HopTable& table, const Drift::Cell
     end.velocity = {u * wind.east - end_across * wind.north, u * wind.north + end_across * wind.east,
                     vertical};
     end.way = part * range;
-    end.outside = !bed.periodic() &&
-                  !(end.x >= -0.5F && end.y >= -0.5F && end.x < static_cast<float>(g.nx()) - 0.5F &&
-                    end.y < static_cast<float>(g.ny()) - 0.5F);
+    end.outside =
+        !bed.periodic() && !(end.x >= -0.5F && end.y >= -0.5F && end.x < static_cast<float>(g.nx()) - 0.5F &&
+                             end.y < static_cast<float>(g.ny()) - 0.5F);
     return end;
   };
   const auto down = static_cast<float>(hop.down);

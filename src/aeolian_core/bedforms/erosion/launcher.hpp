@@ -60,7 +60,7 @@ class Launcher {
   float fall_;             ///< of a ray over a cell [m]
   float weight_, sticks_;  ///< terms of the threshold's square, of gravity and of cohesion [m^2/s^2]
   float tan_repose_;
-  float most_exposed_;     ///< exposure that counts, in that of the flat
+  float most_exposed_;  ///< exposure that counts, in that of the flat
   std::vector<int> awake_;
 };
 

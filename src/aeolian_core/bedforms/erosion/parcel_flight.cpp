@@ -22,8 +22,7 @@ AEOLIAN_INLINE float logarithm(float x) {
   std::memcpy(&m, &bits, sizeof m);
   const float t = (m - 1.0F) / (m + 1.0F);
   const float t2 = t * t;
-  return 0.69314718F * exponent +
-         t * (2.0F + t2 * (0.66666667F + t2 * (0.4F + t2 * 0.28571429F)));
+  return 0.69314718F * exponent + t * (2.0F + t2 * (0.66666667F + t2 * (0.4F + t2 * 0.28571429F)));
 }
 
 AEOLIAN_INLINE float above_zero(float x) { return x > 0 ? x : 0.0F; }
@@ -75,9 +74,8 @@ AEOLIAN_INLINE State moved(const State& p, const FlightStep& s, const float* sur
 
 AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
                                         float* __restrict y, float* __restrict z, float* __restrict u,
-                                        float* __restrict v, float* __restrict w,
-                                        float* __restrict clearance, const float* __restrict surface,
-                                        const float* __restrict) {
+                                        float* __restrict v, float* __restrict w, float* __restrict clearance,
+                                        const float* __restrict surface, const float* __restrict) {
   const FlightStep s = step;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const State p{x[i], y[i], z[i], u[i], v[i], w[i]};

@@ -32,13 +32,13 @@ struct FlightStep {
   /// same everywhere where that is null.
   const float* shear;
   float uniform_shear_x, uniform_shear_y;
-  float per_roughness;           ///< 1 / z0 [1/m]
-  float drag;                    ///< acceleration by drag = drag * (c_d Re) * relative velocity [1/s]
-  float reynolds;                ///< of a relative speed of 1 m/s
+  float per_roughness;  ///< 1 / z0 [1/m]
+  float drag;           ///< acceleration by drag = drag * (c_d Re) * relative velocity [1/s]
+  float reynolds;       ///< of a relative speed of 1 m/s
   float gravity, step, per_cell;
-  float period_x, period_y;      ///< in cells; zero: open
-  float wrap_x, wrap_y;          ///< from where places are wrapped; infinite: open
-  float last_x, last_y;          ///< of places that can be looked up
+  float period_x, period_y;  ///< in cells; zero: open
+  float wrap_x, wrap_y;      ///< from where places are wrapped; infinite: open
+  float last_x, last_y;      ///< of places that can be looked up
 };
 
 /// The constants of a grain, an air and a bed; without wind.

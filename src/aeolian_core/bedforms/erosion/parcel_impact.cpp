@@ -43,9 +43,13 @@ void ParcelImpacts::push(float x, float y, const Eigen::Vector2f& slope, float g
   const float steepness = slope.squaredNorm() / (doubling_slope * doubling_slope);
   const float downhill = std::min(slope_effect * (1 + steepness), most_downhill);
   const float length = -reptation_ * std::log(drawn);
-  Transfer t{x, y, x + length * velocity.x() / speed - reptation_ * downhill * slope.x(),
-             y + length * velocity.y() / speed - reptation_ * downhill * slope.y(), units,
-             Transfer::Kind::pushed, false};
+  Transfer t{x,
+             y,
+             x + length * velocity.x() / speed - reptation_ * downhill * slope.x(),
+             y + length * velocity.y() / speed - reptation_ * downhill * slope.y(),
+             units,
+             Transfer::Kind::pushed,
+             false};
   if (bed_.periodic()) {
     t.to_x = on_ring(t.to_x, bed_.geometry().nx());
     t.to_y = on_ring(t.to_y, bed_.geometry().ny());

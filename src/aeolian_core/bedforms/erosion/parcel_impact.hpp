@@ -15,8 +15,8 @@ class ParcelImpacts {
 
   /// An impact at a place [cells]. Gives `velocity` that of the rebound and writes down what it pushes. False
   /// if the bed keeps the parcel. Random numbers depend on the parcel's name and its hop.
-  bool rebounds(float x, float y, std::uint64_t name, std::uint32_t hop,
-                Eigen::Vector3f& velocity, Transfers& transfers) const;
+  bool rebounds(float x, float y, std::uint64_t name, std::uint32_t hop, Eigen::Vector3f& velocity,
+                Transfers& transfers) const;
 
  private:
   void push(float x, float y, const Eigen::Vector2f& slope, float grains, const Eigen::Vector3f& velocity,
@@ -25,8 +25,8 @@ class ParcelImpacts {
   const Bounce& bounce_;
   const ErodibleBed& bed_;
   Philox random_;
-  float unit_;        ///< sqrt(g d) [m/s]
-  float reptation_;   ///< mean length [cells]
+  float unit_;       ///< sqrt(g d) [m/s]
+  float reptation_;  ///< mean length [cells]
 };
 
 }  // namespace aeolian

@@ -10,7 +10,8 @@ namespace aeolian {
 namespace {
 
 bool same_bits(const HeightMap::Layer& a, const HeightMap::Layer& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
 bool same(const Grain& a, const Grain& b) {
@@ -19,12 +20,8 @@ bool same(const Grain& a, const Grain& b) {
 }
 
 ErosionCounts sum(const ErosionCounts& a, const ErosionCounts& b, int sign) {
-  return {a.steps + sign * b.steps,
-          a.updates + sign * b.updates,
-          a.hops + sign * b.hops,
-          a.launches + sign * b.launches,
-          a.transported + sign * b.transported,
-          a.slid + sign * b.slid};
+  return {a.steps + sign * b.steps,       a.updates + sign * b.updates,         a.hops + sign * b.hops,
+          a.launches + sign * b.launches, a.transported + sign * b.transported, a.slid + sign * b.slid};
 }
 
 }  // namespace
@@ -85,7 +82,8 @@ BedChange ParticleErosion::advance(HeightMap& map, const WindField& wind, const 
 
 BedChange ParticleErosion::iterate(HeightMap& map, const WindField& wind, const Grain& grain,
                                    std::int64_t steps) {
-  if (steps < 0) throw Error("erosion: the number of steps is " + std::to_string(steps) + ", must not be negative");
+  if (steps < 0)
+    throw Error("erosion: the number of steps is " + std::to_string(steps) + ", must not be negative");
   return change(map, wind, grain, [&](ErosionRun& run) { return run.iterate(steps); });
 }
 

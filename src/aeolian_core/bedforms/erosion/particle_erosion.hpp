@@ -46,8 +46,8 @@ class ParticleErosion : public BedModel {
   BedChange iterate(HeightMap& map, const WindField& wind, const Grain& grain, std::int64_t steps);
 
   const ErosionCounts& counts() const { return counts_; }
-  std::size_t airborne() const;     ///< parcels in the air
-  double airborne_volume() const;   ///< [m^3]
+  std::size_t airborne() const;          ///< parcels in the air
+  double airborne_volume() const;        ///< [m^3]
   double time() const { return time_; }  ///< that the bed was moved forward [s]
 
  private:

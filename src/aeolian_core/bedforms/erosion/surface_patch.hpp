@@ -35,8 +35,8 @@ inline SurfacePatch patch_at(const ErodibleBed& bed, float x, float y) {
   const float low = south[0] + tx * (south[1] - south[0]);
   const float high = north[0] + tx * (north[1] - north[0]);
   const auto cell = static_cast<float>(g.cell());
-  return {low + ty * (high - low),
-          ((1 - ty) * (south[1] - south[0]) + ty * (north[1] - north[0])) / cell, (high - low) / cell};
+  return {low + ty * (high - low), ((1 - ty) * (south[1] - south[0]) + ty * (north[1] - north[0])) / cell,
+          (high - low) / cell};
 }
 
 /// Height of the cell that lies so far from another; beyond an open border that of the outermost.

