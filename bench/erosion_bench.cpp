@@ -16,7 +16,7 @@ namespace {
 HeightMap level_sand(int n, double cover = 1) {
   HeightMap map(GridGeometry(0, 0, 0.005, n, n));
   map.add(layer::ground, 0);
-  lay_sand(map, 0.075, 1);
+  lay_sand(map, 0.01, 1);  // an edge of it does not slide for long
   for (int y = static_cast<int>(cover * n); y < n; ++y)
     for (int x = 0; x < n; ++x) map.layer(layer::elevation)[map.geometry().index(x, y)] = 0;
   return map;
