@@ -39,21 +39,27 @@ double crest_wavelength(const GridGeometry& g, const HeightMap::Layer& values, d
   const double c = std::cos(direction);
   const double s = std::sin(direction);
   const double side = std::min(g.length_x(), g.length_y()) / std::max(1.0, std::abs(c) + std::abs(s));
-  const int count = static_cast<int>(side / g.cell());
+  // Along an axis of the grid the whole map, else the largest square in it.
+  const bool east_west = std::abs(s) < 1e-6;
+  const bool on_axis = east_west || std::abs(c) < 1e-6;
+  const double length = !on_axis ? side : east_west ? g.length_x() : g.length_y();
+  const double width = !on_axis ? side : east_west ? g.length_y() : g.length_x();
+  const int count = static_cast<int>(length / g.cell());
+  const int count_across = static_cast<int>(width / g.cell());
   if (count < 16) return unknown;
   PowerSpectrum spectrum(static_cast<std::size_t>(count), g.cell());
   const std::vector<double> wavenumber = spectrum.wavenumber();
   std::vector<double> total(wavenumber.size(), 0);
   const double x0 = g.origin_x() + 0.5 * g.length_x();
   const double y0 = g.origin_y() + 0.5 * g.length_y();
-  for (int strip = 0; strip + strip_cells <= count; strip += strip_cells) {
+  for (int strip = 0; strip + strip_cells <= count_across; strip += strip_cells) {
     std::vector<double> profile(static_cast<std::size_t>(count), 0);
     double mean = 0;
     for (int i = 0; i < count; ++i) {
       double& height = profile[static_cast<std::size_t>(i)];
       for (int j = strip; j < strip + strip_cells; ++j) {
         const double along = (i + 0.5 - 0.5 * count) * g.cell();
-        const double across = (j + 0.5 - 0.5 * count) * g.cell();
+        const double across = (j + 0.5 - 0.5 * count_across) * g.cell();
         height += sample(g, values, x0 + along * c - across * s, y0 + along * s + across * c) / strip_cells;
       }
       mean += height / count;
@@ -66,7 +72,7 @@ double crest_wavelength(const GridGeometry& g, const HeightMap::Layer& values, d
   // Equal variance in each factor of the wavelength counts the same; smoothed over an eighth.
   double best = 0;
   double wavelength = unknown;
-  for (double l = side / 4; l > 4 * g.cell(); l /= 1.02) {
+  for (double l = length / 4; l > 4 * g.cell(); l /= 1.02) {
     double weighted = 0, weights = 0;
     for (std::size_t i = 0; i < total.size(); ++i) {
       const double off = std::log(wavenumber[i] * l) / 0.12;
@@ -80,7 +86,7 @@ double crest_wavelength(const GridGeometry& g, const HeightMap::Layer& values, d
       wavelength = l;
     }
   }
-  return wavelength < side / 4.1 ? wavelength : unknown;
+  return wavelength < length / 4.1 ? wavelength : unknown;
 }
 
 ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const WindField& wind, const Grain& grain,
