@@ -6,9 +6,14 @@
 /// - height_map/: `RippleModel`, fast enough to forecast a live plot;
 /// - sorting/: `SortedRippleModel`, the same for sand of two sizes, with strata; roughness below the grid;
 /// - lattice/: beds of single grains, the truth to test against, and Haff's bed of height bins;
+/// - erosion/: `ParticleErosion`, sand or snow blown in parcels over hard ground;
 /// - theory/: ripples that collide and merge.
 
 #include "aeolian_core/bedforms/bed_model.hpp"
+#include "aeolian_core/bedforms/erosion/drift_laws.hpp"
+#include "aeolian_core/bedforms/erosion/hop_table.hpp"
+#include "aeolian_core/bedforms/erosion/particle_erosion.hpp"
+#include "aeolian_core/bedforms/erosion/snow_cover.hpp"
 #include "aeolian_core/bedforms/height_map/avalanche.hpp"
 #include "aeolian_core/bedforms/height_map/exposure.hpp"
 #include "aeolian_core/bedforms/height_map/ripple_growth.hpp"
