@@ -7,7 +7,7 @@
 #include <std_msgs/Float64.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/forecast_ensemble.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/horizon_shelf.hpp"
 #include "aeolian_twin/nodes/lead_time_words.hpp"
@@ -16,8 +16,6 @@
 
 namespace aeolian {
 namespace {
-
-const std::string spread_layer = "spread";  // standard deviation of an elevation [m]
 
 std::chrono::nanoseconds to_stamp(const ros::Time& time) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(time.toNSec()));
@@ -179,7 +177,7 @@ class ForecastShelf : public Node {
     HeightMap now(map.geometry());
     now.add(layer::elevation, map.layer(layer::elevation));
     if (map.has(layer::variance)) {
-      HeightMap::Layer& spread = now.add(spread_layer, map.layer(layer::variance));
+      HeightMap::Layer& spread = now.add(layer::spread, map.layer(layer::variance));
       for (float& s : spread) s = std::sqrt(s);
     }
     now.add(layer::lead_time, 0);

@@ -24,7 +24,7 @@ void require_pairs(const char* what, const std::vector<double>& first, const std
 
 }  // namespace
 
-Translation fit_translation(const std::vector<double>& height, const std::vector<double>& flux) {
+MovingShape fit_translation(const std::vector<double>& height, const std::vector<double>& flux) {
   require_pairs("heights and fluxes of a ripple", height, flux, 3);
   const double mean_height = mean(height);
   const double mean_flux = mean(flux);

@@ -9,7 +9,7 @@ namespace aeolian {
 /// times d^2. A flat bed is eroded at K0 = d^2 F_x [m/s], as in `Forcing::erosion_rate`.
 
 /// h = q / speed + base (eq. 5.5), which holds for a ripple that keeps its shape while it moves.
-struct Translation {
+struct MovingShape {
   double speed;          ///< [m/s]
   double base;           ///< [m]
   double determination;  ///< r^2 of the straight line; 1 when the shape is kept exactly
@@ -17,7 +17,7 @@ struct Translation {
 
 /// The straight line of least squares through heights [m] over fluxes [m^2/s] at the same places. Throws
 /// Error when their numbers differ, are below three, or the fluxes are all the same.
-Translation fit_translation(const std::vector<double>& height, const std::vector<double>& flux);
+MovingShape fit_translation(const std::vector<double>& height, const std::vector<double>& flux);
 
 /// The flux [m^2/s] between samples `spacing` [m] apart that turns one profile [m] into the other within
 /// `duration` [s], averaged over both sides of a sample and zero upwind of the first: eq. 5.3 read backwards.

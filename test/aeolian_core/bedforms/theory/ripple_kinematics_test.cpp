@@ -25,7 +25,7 @@ TEST(RippleKinematicsTest, a_profile_that_moves_tells_its_speed_and_base) {
     after.push_back(profile(spacing * i - speed * duration));
   }
   const std::vector<double> flux = flux_between(before, after, spacing, duration);
-  const Translation fit = fit_translation(before, flux);
+  const MovingShape fit = fit_translation(before, flux);
   EXPECT_NEAR(fit.speed, speed, 1e-3 * speed);
   EXPECT_GT(fit.determination, 0.99999);
   // No flux is counted half a spacing upwind of the first sample, so that h = h0 there.
@@ -33,7 +33,7 @@ TEST(RippleKinematicsTest, a_profile_that_moves_tells_its_speed_and_base) {
 }
 
 TEST(RippleKinematicsTest, a_ripple_of_the_model_moves_as_equation_5_5_says) {
-  const Translation fit = translation_of_a_grown_ripple(6);
+  const MovingShape fit = translation_of_a_grown_ripple(6);
   EXPECT_GT(fit.determination, 0.99);
   EXPECT_GT(fit.speed, 0);
 }
