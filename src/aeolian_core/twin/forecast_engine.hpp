@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "aeolian_core/twin/forecast_ensemble.hpp"
@@ -21,6 +20,10 @@ struct ForecastJob {
 
 /// All that the forecaster does but for messages and threads: when a forecast is due, from what, with which
 /// wind, and what is learned from the misses. The node and `replay` share it.
+///
+///     engine.take_wind(sample);
+///     const ForecastEngine::Taken taken = engine.take_map(map, time);
+///     if (taken.job) engine.keep(*taken.job, engine.run(*taken.job));
 class ForecastEngine {
  public:
   struct Settings {
@@ -28,32 +31,49 @@ class ForecastEngine {
     ForecastEnsemble::Settings ensemble;
     WindCourse::Settings wind;
     std::optional<ParameterLearner::Settings> learner;  ///< nothing: one forecast with the given parameters
-    std::vector<double> horizons{30, 60, 120, 300};     ///< [s]
-    double period = 30;                                 ///< between forecasts [s]
+    bool learning = true;                               ///< misses are looked at; needs a learner
+    /// Misses are those of the horizon nearest to this, of forecasts that do not overlap: each stretch of
+    /// time teaches once [s].
+    double learning_horizon = 60;
+    double learning_tolerance = 1;  ///< the map learned from comes at most so long after its time [s]
+    std::vector<double> horizons{30, 60, 120, 300};  ///< [s]
+    double period = 30;                              ///< between forecasts [s]
   };
 
   /// Throws Error naming a setting outside its range.
   explicit ForecastEngine(const Settings& settings);
 
-  void take_wind(const WindSample& sample) { wind_.add(sample); }
-  void give_wind_ahead(std::vector<WindSample> samples) { wind_.give_ahead(std::move(samples)); }
+  /// Throws Error for a sample that is not physical, or whose air the saltation does not know; it is then
+  /// left out.
+  void take_wind(const WindSample& sample);
+  void give_wind_ahead(std::vector<WindSample> samples);
 
   /// What a measured map leads to.
   struct Taken {
     std::optional<ForecastJob> job;                 ///< when a forecast is due and there is wind
     std::vector<ParameterLearner::Update> learned;  ///< from forecasts whose time has come
     std::optional<double> bridged_gap;              ///< in the wind of the job [s]
-    bool without_wind = false;                      ///< due, but no wind is known
+    /// Of the longest horizon, how much the wind that was once given ahead does not reach: bridged [s].
+    std::optional<double> not_given_ahead;
+    bool without_wind = false;  ///< due, but no wind is known
   };
-  /// Maps come in the order of their times; one that is older begins the engine anew.
+  /// Maps come in the order of their times; one that is older begins the engine anew but for what it has
+  /// learned.
   Taken take_map(const HeightMap& map, double time);
+
+  /// A job that has to wait: the next map is due as well and may take its place. begin() when it is run after
+  /// all.
+  void defer(const ForecastJob& job);
+  void begin(const ForecastJob& job);
 
   /// May run in another thread while maps and wind are taken.
   EnsembleForecast run(const ForecastJob& job) const;
-  /// Hands back what a job led to, to be learned from when its time comes.
+  /// Hands back what a job led to, to be learned from when its time comes. A forecast that is older than the
+  /// newest map by then teaches nothing.
   void keep(const ForecastJob& job, EnsembleForecast forecast);
 
   ParameterLearner* learner() { return learner_ ? &*learner_ : nullptr; }
+  const Settings& settings() const { return settings_; }
 
  private:
   struct Kept {
@@ -61,13 +81,20 @@ class ForecastEngine {
     EnsembleForecast forecast;
   };
 
+  void begin_anew();
+  bool is_due(double time) const;
+  std::optional<ParameterLearner::Update> learn(const HeightMap& map, double time);
+  ForecastJob make_job(const HeightMap& map, double time, std::vector<WindSpell> wind) const;
+
   Settings settings_;
+  std::size_t learning_horizon_ = 0;  ///< its number
   ForecastEnsemble ensemble_;
   WindCourse wind_;
   std::optional<ParameterLearner> learner_;
-  std::vector<Kept> kept_;
+  std::optional<Kept> kept_;  ///< that is learned from next
   std::optional<double> last_map_;
-  std::optional<double> last_forecast_;
+  std::optional<double> last_forecast_, forecast_before_;
+  std::optional<double> taught_until_;  ///< time of the last map learned from
 };
 
 }  // namespace aeolian

@@ -3,10 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
-#include "aeolian_core/grains/mean_splash.hpp"
-#include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/twin_physics.hpp"
 #include "aeolian_core/twin/uncertain_parameters.hpp"
 #include "aeolian_core/twin/wind_course.hpp"
 
@@ -16,14 +14,6 @@ namespace layer {
 inline const std::string spread = "spread";  ///< standard deviation of a predicted elevation [m]
 }  // namespace layer
 
-/// The physics that all members share.
-struct TwinPhysics {
-  Grain grain;
-  SaltationSource saltation;
-  MeanSplash splash;
-  RippleParameters ripple;
-};
-
 /// What a member of an ensemble predicts.
 struct MemberForecast {
   UncertainParameters parameters;
@@ -31,8 +21,8 @@ struct MemberForecast {
 };
 
 struct EnsembleForecast {
-  /// For each horizon: elevation (the best single guess of the surface), spread (of the error of that guess,
-  /// noise of the measured map included), initial, lead_time; on the grid of the start.
+  /// For each horizon: elevation (the best single guess of the surface), spread (of the error of that guess),
+  /// initial, lead_time; on the grid of the start.
   std::vector<Forecast> forecasts;
   GridGeometry member_geometry;
   std::vector<MemberForecast> members;
@@ -42,12 +32,13 @@ struct EnsembleForecast {
 /// `variance`), the wind and the parameters of the model.
 ///
 /// `elevation` is the run with the median parameters on the map as it is, at full resolution: a mean over
-/// members would flatten crests that they put at different places. Members run on cells of up to
-/// `member_cell`, and only where something can move.
+/// members would flatten crests that they put at different places. Members run on cells of the largest
+/// multiple of the map's that is not above `member_cell`. Their scatter and the model's own error, which no
+/// member shows, make up `spread`.
 class ForecastEnsemble {
  public:
   struct Settings {
-    double member_cell = 0;          ///< members run on cells not finer than this; 0: as the map [m]
+    double member_cell = 0;          ///< members run on cells of up to this; 0: as the map [m]
     double map_error_length = 0.02;  ///< over which errors of the map are alike [m]
     double wind_error = 0.05;        ///< standard deviation of a member's wind, a share of friction velocity
     double direction_error = 0.05;   ///< [rad]
@@ -65,6 +56,12 @@ class ForecastEnsemble {
                        const UncertainParameters& median) const;
 
  private:
+  struct Disturbance;
+  Disturbance disturbance(std::uint64_t forecast, std::size_t member) const;
+  std::vector<ForcingSpell> forcings(const std::vector<WindSpell>& wind,
+                                     const UncertainParameters& parameters) const;
+  HeightMap disturbed(const HeightMap& start, std::uint64_t forecast, std::size_t member) const;
+
   TwinPhysics physics_;
   Settings settings_;
 };

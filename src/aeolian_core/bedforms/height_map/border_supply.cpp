@@ -25,8 +25,11 @@ struct Wave {
 }  // namespace
 
 ImpactSweep::Supply border_supply(Inflow inflow, double wavelength, double frequency, double cell,
-                                  double time, std::uint64_t seed) {
-  if (inflow == Inflow::flat_bed) return nullptr;
+                                  double time, std::uint64_t seed, double share) {
+  if (inflow == Inflow::flat_bed) {
+    if (share == 1) return nullptr;
+    return [share](int, int) { return share; };
+  }
   if (inflow == Inflow::none) return [](int, int) { return 0.0; };
   RandomStream random(seed, 0x626f72646572);
   std::array<Wave, waves> train{};
@@ -34,10 +37,10 @@ ImpactSweep::Supply border_supply(Inflow inflow, double wavelength, double frequ
     wave.along_border = random.normal() / (crest_length * wavelength);
     wave.phase = 2 * M_PI * random.uniform() + frequency * (1 + bandwidth * random.normal()) * time;
   }
-  return [train, cell](int station, int q) {
+  return [train, cell, share](int station, int q) {
     double sum = 0;
     for (const Wave& wave : train) sum += std::cos(wave.phase + wave.along_border * cell * (station + q));
-    return std::max(0.0, 1 + modulation * std::sqrt(2.0 / waves) * sum);
+    return share * std::max(0.0, 1 + modulation * std::sqrt(2.0 / waves) * sum);
   };
 }
 

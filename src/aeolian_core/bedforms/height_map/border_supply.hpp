@@ -16,9 +16,9 @@ enum class Inflow {
 };
 
 /// The supply at some time [s] since a run began, null for a flat bed's. `wavelength` [m] and `frequency`
-/// [rad/s] are those of the ripples that come in; `cell` [m].
+/// [rad/s] are those of the ripples that come in; `cell` [m]. All of it times `share`.
 ImpactSweep::Supply border_supply(Inflow inflow, double wavelength, double frequency, double cell,
-                                  double time, std::uint64_t seed);
+                                  double time, std::uint64_t seed, double share = 1);
 
 /// The width along open borders of what a model cannot know, for want of what lies upwind [m]: the longest
 /// shadow of crests that rise `relief` [m] above the troughs, and at least five reptation lengths

@@ -35,6 +35,8 @@ constexpr double shortest_step = 1.0 / 64;  ///< of the longest
 }  // namespace
 
 RippleModel::RippleModel(const RippleParameters& parameters) : parameters_(parameters) {
+  require(parameters.supply >= 0 && std::isfinite(parameters.supply), "supply", parameters.supply,
+          "zero or more and finite");
   require(parameters.slope_effect >= 0 && std::isfinite(parameters.slope_effect), "slope_effect",
           parameters.slope_effect, "zero or more and finite");
   require(parameters.hop_shortening >= 0 && std::isfinite(parameters.hop_shortening), "hop_shortening",

@@ -22,6 +22,7 @@ enum class Border {
 struct RippleParameters {
   Border border = Border::open;
   Inflow inflow = Inflow::flat_bed;  ///< over open borders from upwind
+  double supply = 1;                 ///< what comes in so, as a share of that
   /// nu: hops end early by this share of the rise of the bed over the hop, late by that of its fall.
   /// Reptating grains come down at about 37 degrees (ejecta rise at 0.5 m/s and land at 0.45 down, 0.6
   /// along): 1.33; less 0.3, because a struck slope lets go of its topmost grain, as measured on the lattice

@@ -120,7 +120,8 @@ void RippleMotion::move(double dt, double time) {
     const double frequency = ripples ? 2 * M_PI * growth_.speed / growth_.wavelength : 0;
     const Inflow inflow =
         ripples || parameters_.inflow == Inflow::none ? parameters_.inflow : Inflow::flat_bed;
-    impacts_.set_supply(border_supply(inflow, growth_.wavelength, frequency, cell_, time, parameters_.seed));
+    impacts_.set_supply(border_supply(inflow, growth_.wavelength, frequency, cell_, time, parameters_.seed,
+                                      parameters_.supply));
   }
   if (hard()) {
     find_sand(bed, ground_, state_.active, state_.sandy);

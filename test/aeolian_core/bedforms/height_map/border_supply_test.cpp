@@ -74,6 +74,14 @@ TEST(BorderSupplyTest, a_train_of_ripples_brings_what_a_flat_bed_does_on_the_mea
   EXPECT_NEAR(std::sqrt(square - mean * mean), 0.3, 0.1);
 }
 
+TEST(BorderSupplyTest, a_share_of_it_is_that_share) {
+  EXPECT_FALSE(border_supply(Inflow::flat_bed, 0.05, 0.02, 0.002, 3, 7));  // all of it, the fast way
+  EXPECT_EQ(border_supply(Inflow::flat_bed, 0.05, 0.02, 0.002, 3, 7, 0.4)(0, 3), 0.4);
+  EXPECT_EQ(border_supply(Inflow::none, 0.05, 0.02, 0.002, 3, 7, 0.4)(0, 3), 0);
+  EXPECT_DOUBLE_EQ(border_supply(Inflow::ripples, 0.05, 0.02, 0.002, 3, 7, 0.4)(0, 3),
+                   0.4 * border_supply(Inflow::ripples, 0.05, 0.02, 0.002, 3, 7)(0, 3));
+}
+
 TEST(BorderSupplyTest, nothing_comes_in_where_there_is_no_sand_upwind) {
   for (const double direction : {0.0, 0.6}) {
     const Moved none = run(Inflow::none, 30, direction);
