@@ -76,9 +76,9 @@ BagSource::BagSource(const std::string& path, const ReplayConfig& config)
 }
 
 BagSource::~BagSource() {
-  ahead_.abort();
-  ahead_.set_capacity(-1);  // a reader that comes to the queue from now on does not wait
   stop_ = true;
+  ahead_.set_capacity(-1);  // a reader that comes to the queue from now on does not wait
+  ahead_.abort();
   reader_.join();
 }
 
@@ -114,7 +114,8 @@ BagSource::Message BagSource::read(const rosbag::MessageInstance& instance) cons
   if (topic == topics_.tf || topic == topics_.tf_static)
     message.content = Transforms{instance.instantiate<tf2_msgs::TFMessage>(), topic == topics_.tf_static};
   else if (topic == topics_.wind)
-    message.content = geometry_msgs::TwistStampedConstPtr(instance.instantiate<geometry_msgs::TwistStamped>());
+    message.content =
+        geometry_msgs::TwistStampedConstPtr(instance.instantiate<geometry_msgs::TwistStamped>());
   else
     message.content = Cloud{instance.instantiate<ReadCloud>(), topic};
   return message;

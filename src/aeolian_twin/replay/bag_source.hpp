@@ -57,7 +57,7 @@ class BagSource {
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;
   tbb::concurrent_bounded_queue<std::optional<Message>> ahead_;  ///< nothing: the end
-  std::exception_ptr failure_;  ///< of the thread; read after the end
+  std::exception_ptr failure_;                                   ///< of the thread; read after the end
   std::atomic<bool> stop_{false};
   std::thread reader_;
 };

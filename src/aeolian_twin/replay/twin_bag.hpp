@@ -12,7 +12,8 @@
 
 namespace aeolian {
 
-/// Messages into a bag, serialised and compressed in a thread of its own, in the order in which they are given.
+/// Messages into a bag, serialised and compressed in a thread of its own, in the order in which they are
+/// given.
 class TwinBag {
  public:
   /// `bag` must outlive this, and be left alone meanwhile.
@@ -33,7 +34,7 @@ class TwinBag {
 
   rosbag::Bag& bag_;
   tbb::concurrent_bounded_queue<std::function<void()>> waiting_;  ///< an empty one: the end
-  std::exception_ptr failure_;                                     ///< read when the writer has ended
+  std::exception_ptr failure_;                                    ///< read when the writer has ended
   std::thread writer_;
 };
 
