@@ -56,7 +56,7 @@ void require_any(const std::string& path, const std::map<std::string, std::strin
 }  // namespace
 
 BagSource::BagSource(const std::string& path, const ReplayConfig& config)
-    : path_(path), topics_(config.topics) {
+    : path_(path), topics_(config.topics), ahead_(most_ahead) {
   open(bag_, path);
   std::vector<std::string> clouds;
   for (const SensorSettings& sensor : config.sensors) clouds.push_back(sensor.topic);
@@ -71,38 +71,30 @@ BagSource::BagSource(const std::string& path, const ReplayConfig& config)
   std::vector<std::string> wanted = clouds;
   for (const std::string& topic : {topics_.wind, topics_.tf, topics_.tf_static}) wanted.push_back(topic);
   view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(wanted));
-  ahead_.set_capacity(most_ahead);
   reader_ = std::thread([this] { read_ahead(); });
 }
 
 BagSource::~BagSource() {
-  stop_ = true;
-  ahead_.set_capacity(-1);  // a reader that comes to the queue from now on does not wait
-  ahead_.abort();
+  ahead_.close();
   reader_.join();
 }
 
 std::optional<BagSource::Message> BagSource::next() {
-  std::optional<Message> message;
-  ahead_.pop(message);
+  std::optional<Message> message = ahead_.pop();
   if (!message && failure_) std::rethrow_exception(failure_);
   return message;
 }
 
 void BagSource::read_ahead() {
   try {
-    for (const rosbag::MessageInstance& instance : *view_) {
-      if (stop_) return;
-      ahead_.push(read(instance));
-    }
-  } catch (const tbb::user_abort&) {
-    return;
+    for (const rosbag::MessageInstance& instance : *view_)
+      if (!ahead_.push(read(instance))) return;
   } catch (const rosbag::BagException& error) {
     failure_ = std::make_exception_ptr(Error("bag " + path_ + ": is damaged: " + error.what()));
   } catch (...) {
     failure_ = std::current_exception();
   }
-  ahead_.push(std::nullopt);
+  ahead_.close();
 }
 
 BagSource::Message BagSource::read(const rosbag::MessageInstance& instance) const {

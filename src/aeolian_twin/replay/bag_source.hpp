@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -11,9 +10,9 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <tbb/concurrent_queue.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "aeolian_twin/replay/bounded_queue.hpp"
 #include "aeolian_twin/replay/read_cloud.hpp"
 #include "aeolian_twin/replay/replay_config.hpp"
 
@@ -56,9 +55,7 @@ class BagSource {
   ReplayConfig::Topics topics_;
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;
-  tbb::concurrent_bounded_queue<std::optional<Message>> ahead_;  ///< nothing: the end
-  std::exception_ptr failure_;                                   ///< of the thread; read after the end
-  std::atomic<bool> stop_{false};
+  BoundedQueue<Message> ahead_;
   std::thread reader_;
 };
 

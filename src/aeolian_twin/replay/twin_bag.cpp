@@ -3,35 +3,29 @@
 namespace aeolian {
 namespace {
 
-constexpr std::ptrdiff_t most_waiting = 64;
+constexpr std::size_t most_waiting = 64;
 
 }  // namespace
 
-TwinBag::TwinBag(rosbag::Bag& bag) : bag_(bag) {
-  waiting_.set_capacity(most_waiting);
-  writer_ = std::thread([this] { work(); });
-}
+TwinBag::TwinBag(rosbag::Bag& bag) : bag_(bag), waiting_(most_waiting), writer_([this] { work(); }) {}
 
 TwinBag::~TwinBag() {
   if (!writer_.joinable()) return;
-  waiting_.push(nullptr);
+  waiting_.close();
   writer_.join();
 }
 
 void TwinBag::finish() {
-  waiting_.push(nullptr);
+  waiting_.close();
   writer_.join();
   if (failure_) std::rethrow_exception(failure_);
 }
 
 void TwinBag::work() {
-  while (true) {
-    std::function<void()> write;
-    waiting_.pop(write);
-    if (!write) return;
+  while (const auto write = waiting_.pop()) {
     if (failure_) continue;
     try {
-      write();
+      (*write)();
     } catch (...) {
       failure_ = std::current_exception();
     }

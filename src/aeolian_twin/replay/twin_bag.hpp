@@ -8,7 +8,8 @@
 
 #include <boost/shared_ptr.hpp>
 #include <rosbag/bag.h>
-#include <tbb/concurrent_queue.h>
+
+#include "aeolian_twin/replay/bounded_queue.hpp"
 
 namespace aeolian {
 
@@ -33,8 +34,8 @@ class TwinBag {
   void work();
 
   rosbag::Bag& bag_;
-  tbb::concurrent_bounded_queue<std::function<void()>> waiting_;  ///< an empty one: the end
-  std::exception_ptr failure_;                                    ///< read when the writer has ended
+  BoundedQueue<std::function<void()>> waiting_;
+  std::exception_ptr failure_;  ///< read when the writer has ended
   std::thread writer_;
 };
 
