@@ -1,5 +1,7 @@
 /// Where a forecaster has its saltation from: the law, a table of solved states, a table that cannot be used.
+/// What it says of its uncertainty and of its wind.
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -7,8 +9,11 @@
 #include "program_outcome.hpp"
 #include "ros_test.hpp"
 #include "running_program.hpp"
+#include <aeolian_msgs/LearnedParameters.h>
+#include <aeolian_msgs/WindAhead.h>
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
+#include <std_srvs/SetBool.h>
 
 #include "aeolian_core/bedforms/height_map/ripple_model.hpp"
 #include "aeolian_core/saltation/saltation_source.hpp"
@@ -58,9 +63,10 @@ double largest_difference(const HeightMap::Layer& a, const HeightMap::Layer& b) 
 
 class ForecasterTest : public ::testing::Test {
  protected:
-  void start(const std::string& saltation) {
-    node_ = std::make_unique<RunningProgram>(
-        "forecaster", std::vector<std::string>{"_saltation:=" + saltation, "_diagnostic_period:=0.1"});
+  void start(const std::string& saltation, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"_saltation:=" + saltation, "_diagnostic_period:=0.1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    node_ = std::make_unique<RunningProgram>("forecaster", arguments);
     ASSERT_TRUE(wait_until([&] {
       return winds_.getNumSubscribers() > 0 && maps_.getNumSubscribers() > 0 && forecasts_.connected();
     }));
@@ -80,6 +86,22 @@ class ForecasterTest : public ::testing::Test {
     EXPECT_TRUE(came);
     return came ? to_height_map(*forecasts_.messages.front()).layer(layer::elevation)
                 : HeightMap::Layer(geometry.size());
+  }
+
+  /// A reading and a map of the same second; false when nothing comes of them.
+  bool map_at(double time, double friction_velocity = 0.45) {
+    std_msgs::Header header;
+    header.frame_id = "map";
+    header.stamp = ros::Time(time);
+    WindField field = wind(1.225);
+    field.friction_velocity = friction_velocity;
+    winds_.publish(to_message(field, geometry, header));
+    ros::WallDuration(0.2).sleep();  // another topic: the map may overtake it
+    const std::size_t before = forecasts_.messages.size();
+    HeightMap map = ripples();
+    map.add(layer::variance, 1e-8F);
+    maps_.publish(to_message(map, header));
+    return wait_until([&] { return forecasts_.messages.size() > before; }, 2);
   }
 
   ros::NodeHandle nh_;
@@ -123,6 +145,83 @@ TEST_F(ForecasterTest, AirThatTheTableDoesNotKnowIsTold) {
   header.stamp = ros::Time(1000);
   winds_.publish(to_message(wind(0.02), geometry, header));
   EXPECT_TRUE(diagnostics_.warns("forecaster", "density of the grain over that of the air is 132500"));
+}
+
+TEST_F(ForecasterTest, MembersTellTheSpreadAndLeaveTheElevation) {
+  start("law", {"_members:=5", "_member_cell:=0.01"});
+  EXPECT_LT(largest_difference(forecast(), expected(steady_saltation(0.45, Grain{}))), 1e-7);
+  const HeightMap map = to_height_map(*forecasts_.messages.front());
+  ASSERT_TRUE(map.has(layer::spread));
+  for (const float spread : map.layer(layer::spread)) EXPECT_GT(spread, 0);
+}
+
+TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
+  const std::string path = folder_.path() + "/learned.yaml";
+  const std::vector<std::string> learning{
+      "_members:=5",         "_learning:=on",         "_learned_file:=" + path,
+      "_horizons:=[10, 20]", "_learning_horizon:=10", "_period:=10"};
+  Listener<aeolian_msgs::LearnedParameters> learned{nh_, "learned"};
+  start("law", learning);
+  ASSERT_TRUE(map_at(1000));
+  ASSERT_TRUE(map_at(1010));
+  ASSERT_TRUE(wait_until([&] { return !learned.messages.empty(); }));
+  EXPECT_EQ(learned.messages[0]->header.stamp, ros::Time(1010));
+  EXPECT_EQ(learned.messages[0]->why_not, "");
+  EXPECT_TRUE(learned.messages[0]->learned);
+  EXPECT_TRUE(std::filesystem::exists(path));
+
+  std_srvs::SetBool freeze;
+  freeze.request.data = 1;
+  ASSERT_TRUE(ros::service::call("freeze_learning", freeze));
+  ASSERT_TRUE(map_at(1020));
+  ASSERT_TRUE(wait_until([&] { return learned.messages.size() > 1; }));
+  EXPECT_FALSE(learned.messages[1]->learned);
+  EXPECT_EQ(learned.messages[1]->median, learned.messages[0]->median);
+
+  node_.reset();
+  learned.messages.clear();
+  start("law", learning);
+  ASSERT_TRUE(map_at(2000));
+  ASSERT_TRUE(map_at(2010));
+  ASSERT_TRUE(wait_until([&] { return !learned.messages.empty(); }));
+  EXPECT_EQ(learned.messages.back()->updates, 2U);
+}
+
+TEST_F(ForecasterTest, SpikesOfTheWindAreToldAndLeftOut) {
+  start("law");
+  EXPECT_FALSE(map_at(1000, 9));
+  EXPECT_TRUE(diagnostics_.warns("forecaster", "is 9, must be 0 to 3"));
+  EXPECT_TRUE(map_at(1001));
+}
+
+TEST_F(ForecasterTest, WindAheadIsUsedAndToldWhenItIsLate) {
+  start("law");
+  ros::Publisher ahead = nh_.advertise<aeolian_msgs::WindAhead>("wind_ahead", 10);
+  ASSERT_TRUE(wait_until([&] { return ahead.getNumSubscribers() > 0; }));
+  aeolian_msgs::WindAhead calm;
+  calm.header.frame_id = "map";
+  calm.header.stamp = ros::Time(1000);
+  calm.lead_time = {0, 300};
+  calm.speed = {1, 1};
+  calm.direction = {0, 0};
+  calm.height = 1;
+  ahead.publish(calm);
+  ASSERT_TRUE(map_at(1000));
+  const HeightMap map = to_height_map(*forecasts_.messages.front());
+  EXPECT_EQ(map.layer(layer::elevation), ripples().layer(layer::elevation));
+  EXPECT_TRUE(diagnostics_.is_well("forecaster"));
+
+  ASSERT_TRUE(map_at(1390));
+  EXPECT_TRUE(diagnostics_.warns("forecaster", "90 s of 300 are not given and are bridged"));
+  calm.speed.pop_back();
+  ahead.publish(calm);
+  EXPECT_TRUE(diagnostics_.warns("forecaster", "2 lead times, 1 speeds and 2 directions"));
+}
+
+TEST_F(ForecasterTest, BadParametersAreRefused) {
+  EXPECT_EQ(run_program("forecaster __name:=refused _members:=1").err,
+            "forecaster: /refused/members: 1 is not allowed, must be 0, or 2 and more\n");
+  EXPECT_EQ(run_program("forecaster __name:=refused _wind_ahead_file:=/nowhere.csv").code, 1);
 }
 
 TEST_F(ForecasterTest, GrainsThatTheTableDoesNotHoldAreRefused) {

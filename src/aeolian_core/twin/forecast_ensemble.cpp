@@ -36,6 +36,20 @@ HeightMap coarsened(const HeightMap& map, double cell) {
                   GridGeometry(g.origin_x(), g.origin_y(), factor * g.cell(), count(g.nx()), count(g.ny())));
 }
 
+/// The mean forcing to a lead time [s].
+Forcing mean_until(const std::vector<ForcingSpell>& spells, double lead_time) {
+  std::vector<Forcing> forcings;
+  std::vector<double> durations;
+  double begin = 0;
+  for (const ForcingSpell& spell : spells) {
+    if (begin >= lead_time) break;
+    forcings.push_back(spell.forcing);
+    durations.push_back(std::min(spell.until, lead_time) - begin);
+    begin = spell.until;
+  }
+  return mean_forcing(forcings, durations);
+}
+
 /// What a forecast starts from, without other layers.
 HeightMap start_of(const HeightMap& map) {
   HeightMap start(map.geometry());
@@ -113,29 +127,30 @@ EnsembleForecast ForecastEnsemble::run(const HeightMap& start, const std::vector
     return make_forecasts_in_turn(from, forcing, horizons, model);
   };
   EnsembleForecast result;
+  const std::vector<ForcingSpell> control = forcings(wind, median);
   if (members.empty()) {
-    result.forecasts = run_model(start, forcings(wind, median), median);
+    result.forecasts = run_model(start, control, median);
     return result;
   }
 
   const HeightMap coarse = coarsened(start_of(start), settings_.member_cell);
-  const std::uint64_t forecast = number_of(wind);
+  const std::uint64_t number = number_of(wind);
   result.member_geometry = coarse.geometry();
   result.members.resize(members.size());
   const auto run_member = [&](std::size_t member) {
-    const Disturbance change = disturbance(forecast, member);
+    const Disturbance change = disturbance(number, member);
     UncertainParameters parameters = members[member];
     parameters.friction_velocity *= change.wind;
     std::vector<ForcingSpell> forcing = forcings(wind, parameters);
     for (ForcingSpell& spell : forcing) spell.forcing.direction += change.turn;
     result.members[member].parameters = members[member];
-    for (Forecast& each : run_model(disturbed(coarse, forecast, member), forcing, parameters))
+    for (Forecast& each : run_model(disturbed(coarse, number, member), forcing, parameters))
       result.members[member].elevation.push_back(std::move(each.map.layer(layer::elevation)));
   };
   // The longest run first.
   tbb::parallel_for(std::size_t{0}, members.size() + 1, [&](std::size_t task) {
     if (task == 0)
-      result.forecasts = run_model(start, forcings(wind, median), median);
+      result.forecasts = run_model(start, control, median);
     else
       run_member(task - 1);
   });
@@ -143,9 +158,14 @@ EnsembleForecast ForecastEnsemble::run(const HeightMap& start, const std::vector
   for (std::size_t h = 0; h < horizons.size(); ++h) {
     std::vector<const HeightMap::Layer*> elevations;
     for (const MemberForecast& member : result.members) elevations.push_back(&member.elevation[h]);
-    const bool moved = result.forecasts[h].volume.moved > 0;
-    const double model_error = moved ? settings_.model_error_speed * std::sqrt(horizons[h]) : 0;
-    result.forecasts[h].map.add(layer::spread, spread_of(elevations, coarse.geometry(), model_error, start));
+    Forecast& forecast = result.forecasts[h];
+    const double model_error =
+        forecast.volume.moved > 0 ? settings_.model_error_speed * std::sqrt(forecast.lead_time) : 0;
+    BorderError border;
+    if (physics_.ripple.border == Border::open)
+      border = border_error(forecast, mean_until(control, forecast.lead_time), physics_.ripple.hop_shortening,
+                            physics_.ripple.slope_effect);
+    forecast.map.add(layer::spread, spread_of(elevations, coarse.geometry(), model_error, border, start));
   }
   return result;
 }

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <aeolian_msgs/Comparison.h>
+#include <aeolian_msgs/LearnedParameters.h>
 #include <aeolian_msgs/Profile.h>
+#include <aeolian_msgs/WindAhead.h>
 #include <grid_map_msgs/GridMap.h>
 #include <opencv2/core.hpp>
 #include <sensor_msgs/CameraInfo.h>
@@ -19,6 +21,8 @@
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/point_cloud.hpp"
 #include "aeolian_core/twin/comparison.hpp"
+#include "aeolian_core/twin/parameter_learner.hpp"
+#include "aeolian_core/twin/wind_course.hpp"
 #include "aeolian_core/wind/wind_model.hpp"
 
 /// Between messages and core types: the only place where the two meet. What a message gets wrong is an Error
@@ -54,6 +58,13 @@ grid_map_msgs::GridMap to_message(const WindField& wind, const GridGeometry& ext
 /// The cells' mean: friction velocity, direction of the mean vector, air density (1.225 when the layer is
 /// absent). `cells` holds the map unless it is a single cell. Throws Error when no cell is known.
 WindField to_wind_field(const grid_map_msgs::GridMap& message);
+
+/// The wind to come over a bed of that roughness length [m]. Throws Error for lists of different lengths and
+/// for what log_law.hpp does not allow.
+std::vector<WindSample> to_wind_samples(const aeolian_msgs::WindAhead& message, double roughness);
+
+aeolian_msgs::LearnedParameters to_message(const LearnedState& state, const ParameterLearner::Update& update,
+                                           const std_msgs::Header& header);
 
 aeolian_msgs::Comparison to_message(const Comparison& comparison, const std_msgs::Header& header,
                                     const ros::Time& issued);

@@ -1,31 +1,23 @@
-#include <algorithm>
-#include <cmath>
 #include <condition_variable>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <thread>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <std_srvs/SetBool.h>
 
-#include "aeolian_core/bedforms/height_map/ripple_model.hpp"
-#include "aeolian_core/saltation/saltation_source.hpp"
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/twin/forecast.hpp"
+#include "aeolian_core/twin/forecast_engine.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/engine_settings.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 
 namespace aeolian {
-namespace {
 
-const std::string law = "law";  // name of the three-number law
-
-}  // namespace
-
-/// Runs the ripple model forward from the newest map, in a thread of its own.
+/// Hands maps and wind to a ForecastEngine and runs its forecasts in a thread of its own.
 class Forecaster : public Node {
  public:
   Forecaster() : Node(describe_forecaster()) {}
@@ -39,51 +31,29 @@ class Forecaster : public Node {
   }
 
  private:
-  struct WindSample {
-    ros::Time stamp;
-    Forcing forcing;
-  };
-  /// A map to start from and the wind that is to move it.
+  /// A job and the header of its map.
   struct Job {
-    HeightMap start;
+    ForecastJob job;
     std_msgs::Header header;
-    Forcing forcing;
   };
 
   void start() override {
-    grain_.diameter = parameters().number("grain_diameter");
-    grain_.density = parameters().number("grain_density");
-    grain_.porosity = parameters().number("porosity");
-    grain_.angle_of_repose = degrees_to_radians(parameters().number("angle_of_repose_deg"));
-    check(grain_);
-    saltation_ = read_saltation(parameters().text("saltation"));
-    splash_.reptation_diameters = parameters().number("reptation_diameters");
-    RippleParameters ripple;
-    ripple.hop_shortening = parameters().number("hop_shortening");
-    ripple.slope_effect = parameters().number("slope_effect");
-    ripple.doubling_slope = degrees_to_radians(parameters().number("doubling_slope_deg"));
-    ripple.wavelength_law =
-        make_wavelength_law(parameters().text("wavelength_law"), parameters().number("wavelength_diameters"));
-    const std::string& inflow = parameters().text("inflow");
-    ripple.inflow = inflow == "none"      ? Inflow::none
-                    : inflow == "ripples" ? Inflow::ripples
-                                          : Inflow::flat_bed;
-    ripple.lateral_spread = parameters().number("lateral_spread");
-    ripple.relief_scale = parameters().number("relief_scale");
-    model_ = std::make_unique<RippleModel>(ripple);
-    horizons_ = parameters().numbers("horizons");
-    if (horizons_.empty() ||
-        std::adjacent_find(horizons_.begin(), horizons_.end(), std::greater_equal<>()) != horizons_.end())
-      parameters().refuse("horizons", "a list of at least one time, each longer than the one before");
-    period_ = ros::Duration(parameters().number("period"));
-    wind_window_ = parameters().number("wind_window");
-    max_gap_ = parameters().number("max_gap");
-
-    publisher_ =
-        nh().advertise<grid_map_msgs::GridMap>("forecast", static_cast<std::uint32_t>(horizons_.size()) + 10);
+    const Tell tell = [this](const std::string& thing, bool well, const std::string& line) {
+      well ? good(thing, line) : bad(thing, line);
+    };
+    engine_ = std::make_unique<ForecastEngine>(read_engine(parameters(), tell));
+    prepare_engine(parameters(), *engine_, tell);
+    const auto horizons = static_cast<std::uint32_t>(engine_->settings().horizons.size());
+    publisher_ = nh().advertise<grid_map_msgs::GridMap>("forecast", horizons + 10);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Forecaster::take_wind, this);
+    ahead_subscriber_ = nh().subscribe("wind_ahead", 10, &Forecaster::take_wind_ahead, this);
+    if (engine_->learner()) {
+      learned_publisher_ = nh().advertise<aeolian_msgs::LearnedParameters>("learned", 10, /*latch=*/true);
+      freeze_server_ = nh().advertiseService("freeze_learning", &Forecaster::freeze, this);
+    }
     WantedMap wanted;
     wanted.layers = {layer::elevation, layer::ground};
+    if (engine_->learner()) wanted.layers.push_back(layer::variance);
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
       require_frame(topic, header);
     };
@@ -97,107 +67,104 @@ class Forecaster : public Node {
     worker_ = std::thread([this] { work(); });
   }
 
-  /// The law or a table. A file that cannot be used is told, and the law is used; a table that can but knows
-  /// nothing of the grain is refused.
-  SaltationSource read_saltation(const std::string& name) {
-    if (name == law) return {};
-    SaltationSource solved;
-    try {
-      solved = SaltationSource(SaltationTable::read(name));
-    } catch (const Error& error) {
-      bad("saltation", fmt::format("{}; the three-number law is used", error.what()));
-      return {};
-    }
-    solved.check(grain_);
-    good("saltation", "states of " + name);
-    return solved;
-  }
-
   void take_wind(const grid_map_msgs::GridMap::ConstPtr& message) {
     try {
       require_frame(wind_subscriber_.getTopic(), message->info.header);
-      const ros::Time stamp = message->info.header.stamp;
       const WindField field = to_wind_field(*message);
-      const SaltationState state = saltation_.state(field.friction_velocity, grain_, field.air_density);
-      if (!wind_.empty() && stamp < wind_.back().stamp) wind_.clear();  // a bag that loops
-      wind_.push_back({stamp, make_forcing(state, field.direction, grain_, splash_)});
-      // Maps may be stamped well before the newest wind, so twice the window is kept.
-      while ((stamp - wind_.front().stamp).toSec() > 2 * wind_window_) wind_.pop_front();
+      const std::lock_guard<std::mutex> lock(mutex_);
+      engine_->take_wind(
+          {message->info.header.stamp.toSec(), field.friction_velocity, field.direction, field.air_density});
     } catch (const Error& error) {
       bad("wind", error.what());
     }
   }
 
-  void take_map(const HeightMap& map, const std_msgs::Header& header) {
-    const ros::Time stamp = header.stamp;
-    if (stamp < last_map_) {
-      bad("clock",
-          fmt::format("time jumped back by {:.1f} s (a bag that loops?)", (last_map_ - stamp).toSec()));
-    } else if (!last_map_.isZero()) {
-      good("clock", "time runs forward");
+  void take_wind_ahead(const aeolian_msgs::WindAhead::ConstPtr& message) {
+    try {
+      require_frame(ahead_subscriber_.getTopic(), message->header);
+      std::vector<WindSample> samples = to_wind_samples(*message, bed_roughness(parameters()));
+      const std::lock_guard<std::mutex> lock(mutex_);
+      engine_->give_wind_ahead(std::move(samples));
+    } catch (const Error& error) {
+      bad("wind ahead", error.what());
     }
-    last_map_ = stamp;
-    if (!is_due(stamp)) return;
-    if (const std::optional<Forcing> forcing = forcing_before(stamp)) submit({map, header, *forcing});
+  }
+
+  void take_map(const HeightMap& map, const std_msgs::Header& header) {
+    if (header.stamp < last_map_)
+      bad("clock", fmt::format("time jumped back by {:.1f} s (a bag that loops?)",
+                               (last_map_ - header.stamp).toSec()));
+    else if (!last_map_.isZero())
+      good("clock", "time runs forward");
+    last_map_ = header.stamp;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ForecastEngine::Taken taken = engine_->take_map(map, header.stamp.toSec());
+      say(taken, header.stamp);
+      for (const ParameterLearner::Update& update : taken.learned) publish(update, header);
+      if (taken.job) submit({std::move(*taken.job), header});
+    }
+    wake_.notify_one();
     good("map", "in use");
   }
 
-  /// The mean forcing over the wind window that ends at a time, each sample with the time for which it
-  /// stands. What is missing is bridged with what is there; nothing when nothing is.
-  std::optional<Forcing> forcing_before(const ros::Time& end) {
-    std::vector<Forcing> forcings;
-    std::vector<double> ages;
-    double longest_gap = 0;
-    double last_age = 0;
-    for (auto sample = wind_.rbegin(); sample != wind_.rend(); ++sample) {
-      const double age = (end - sample->stamp).toSec();
-      if (age < 0) continue;
-      if (last_age < wind_window_) longest_gap = std::max(longest_gap, age - last_age);
-      last_age = age;
-      if (age > wind_window_) break;
-      forcings.push_back(sample->forcing);
-      ages.push_back(age);
+  /// What the wind of a forecast is made of.
+  void say(const ForecastEngine::Taken& taken, const ros::Time& stamp) {
+    const ForecastEngine::Settings& settings = engine_->settings();
+    if (taken.without_wind)
+      bad("wind", fmt::format("no wind in the {} s before the map at {}.{:09}: no forecast",
+                              settings.wind.window, stamp.sec, stamp.nsec));
+    if (!taken.job) return;
+    const WindSpell& first = taken.job->wind.front();
+    if (taken.bridged_gap)
+      bad("wind", fmt::format("a gap of {:.1f} s in the wind is bridged with the mean of the rest",
+                              *taken.bridged_gap));
+    else if (!first.ahead)
+      good("wind", fmt::format("{} readings in the last {} s", first.samples.size(), settings.wind.window));
+    if (taken.not_given_ahead)
+      bad("wind ahead", fmt::format("is late or too short: {:.0f} s of {:.0f} are not given and are bridged "
+                                    "with the wind so far",
+                                    *taken.not_given_ahead, settings.horizons.back()));
+    else if (first.ahead)
+      good("wind ahead", "in use");
+  }
+
+  void publish(const ParameterLearner::Update& update, const std_msgs::Header& header) {
+    const LearnedState& state = engine_->learner()->state();
+    learned_publisher_.publish(to_message(state, update, header));
+    if (!update.learned) {
+      good("learning", "nothing learned: " + update.why_not);
+      return;
     }
-    if (forcings.empty()) {
-      bad("wind", fmt::format("no wind in the {} s before the map at {}.{:09}: no forecast", wind_window_,
-                              end.sec, end.nsec));
-      return std::nullopt;
+    try {
+      const std::string& path = parameters().text("learned_file");
+      if (!path.empty()) engine_->learner()->save(path);
+      good("learning", fmt::format("{} updates; the friction velocity is {:.3f} times what is given",
+                                   state.updates, update.after.friction_velocity));
+    } catch (const Error& error) {
+      bad("learning", error.what());
     }
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < ages.size(); ++i) {
-      const double stands_for = ages[i] - (i > 0 ? ages[i - 1] : 0);
-      weights.push_back(std::min(max_gap_, std::max(stands_for, 1e-3)));
-    }
-    if (longest_gap > max_gap_)
-      bad("wind",
-          fmt::format("a gap of {:.1f} s in the wind is bridged with the mean of the rest", longest_gap));
-    else
-      good("wind", fmt::format("{} readings in the last {} s", forcings.size(), wind_window_));
-    return mean_forcing(forcings, weights);
+  }
+
+  bool freeze(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    engine_->learner()->freeze(request.data);
+    response.success = 1;
+    response.message = request.data ? "misses are only watched" : "misses are learned from";
+    return true;
   }
 
   /// Hands a job to the worker; one that still waits there is replaced, so that the newest map wins.
   void submit(Job job) {
-    const ros::Time stamp = job.header.stamp;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (working_) {
-        bad("speed",
-            fmt::format(
-                "a forecast still runs when the next is due after {} s (~period): the newest map waits",
-                period_.toSec()));
-      } else {
-        good("speed", "forecasts keep up with the maps");
-        started_ = stamp;
-      }
-      next_ = std::move(job);
+    if (working_) {
+      bad("speed",
+          fmt::format("a forecast still runs when the next is due after {} s (~period): the newest map waits",
+                      engine_->settings().period));
+      engine_->defer(job.job);
+    } else {
+      good("speed", "forecasts keep up with the maps");
     }
-    wake_.notify_one();
-  }
-
-  bool is_due(const ros::Time& stamp) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return started_.isZero() || stamp < started_ || stamp - started_ >= period_;
+    next_ = std::move(job);
   }
 
   void work() {
@@ -207,108 +174,70 @@ class Forecaster : public Node {
       if (stop_) return;
       const Job job = std::move(*next_);
       next_.reset();
-      started_ = job.header.stamp;
+      engine_->begin(job.job);
       working_ = true;
       lock.unlock();
-      forecast(job);
+      std::optional<EnsembleForecast> forecast = run(job);
       lock.lock();
+      if (forecast) engine_->keep(job.job, std::move(*forecast));
       working_ = false;
     }
   }
 
-  void forecast(const Job& job) {
+  std::optional<EnsembleForecast> run(const Job& job) {
     try {
       const ros::WallTime begin = ros::WallTime::now();
-      for (const Forecast& forecast : make_forecasts(job.start, job.forcing, horizons_, *model_)) {
+      EnsembleForecast result = engine_->run(job.job);
+      for (const Forecast& forecast : result.forecasts) {
         std_msgs::Header header = job.header;
         header.stamp += ros::Duration(forecast.lead_time);
         publisher_.publish(to_message(forecast.map, header));
       }
+      const Forcing forcing = forcing_of(engine_->settings().physics, job.job.wind.front(), job.job.median);
       good("forecast",
            fmt::format(
-               "{} horizons in {:.2f} s; depth set moving {:.3g} mm/s towards {:.0f} degrees from east",
-               horizons_.size(), (ros::WallTime::now() - begin).toSec(), 1e3 * job.forcing.erosion_rate(),
-               radians_to_degrees(job.forcing.direction)));
+               "{} horizons, {} members in {:.2f} s; depth set moving {:.3g} mm/s towards {:.0f} degrees "
+               "from east",
+               result.forecasts.size(), result.members.size(), (ros::WallTime::now() - begin).toSec(),
+               1e3 * forcing.erosion_rate(), radians_to_degrees(forcing.direction)));
+      return result;
     } catch (const Error& error) {
       bad("forecast", error.what());
+      return std::nullopt;
     }
   }
 
-  Grain grain_;
-  SaltationSource saltation_;
-  MeanSplash splash_;
-  std::vector<double> horizons_;
-  ros::Duration period_;
-  double wind_window_ = 0;
-  double max_gap_ = 0;
-  std::unique_ptr<RippleModel> model_;  ///< used by the worker only
-
-  std::deque<WindSample> wind_;
   ros::Time last_map_;
   ros::Publisher publisher_;
+  ros::Publisher learned_publisher_;
+  ros::ServiceServer freeze_server_;
   ros::Subscriber wind_subscriber_;
+  ros::Subscriber ahead_subscriber_;
   std::unique_ptr<MapReceiver> receiver_;
 
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards what follows, but for what of the engine is constant
+  std::unique_ptr<ForecastEngine> engine_;
   std::condition_variable wake_;
   std::optional<Job> next_;
   bool working_ = false;
   bool stop_ = false;
-  ros::Time started_;  ///< stamp of the map of the newest forecast
   std::thread worker_;
 };
 
 NodeDescription describe_forecaster() {
-  const Grain grain;
-  const RippleParameters ripple;
-  return {
-      "forecaster",
-      "predicts the surface from the newest map and the wind",
-      {"height_map, height_map_updates (grid_map_msgs/GridMap): whole, what has changed",
-       "wind_field (grid_map_msgs/GridMap)"},
-      {"forecast (grid_map_msgs/GridMap) for each horizon: elevation, initial [m], lead_time [s]; stamped "
-       "with the "
-       "time for which it holds"},
-      {
-          frame_parameter(),
-          {"grain_diameter", grain.diameter, "m", "of the bed", Limits::between(1e-5, 1e-2)},
-          {"grain_density", grain.density, "kg/m^3", "of the solid", Limits::positive()},
-          {"porosity", grain.porosity, "", "of the bed at rest", Limits::between(0, 0.95)},
-          {"angle_of_repose_deg", 33.0, "degrees", "of the bed", Limits::between(1, 60)},
-          {"saltation", law, "", "law (of three numbers), or the path of a table of solved states"},
-          {"reptation_diameters", MeanSplash{}.reptation_diameters, "grain diameters",
-           "mean length of a reptation hop", Limits::positive()},
-          {"hop_shortening", ripple.hop_shortening, "", "hops end early by this share of the bed's rise",
-           Limits::not_negative()},
-          {"slope_effect", ripple.slope_effect, "", "downslope bias of reptation", Limits::not_negative()},
-          {"doubling_slope_deg", 22.0, "degrees", "slope at which the downslope bias has doubled",
-           Limits::between(1, 90)},
-          {"wavelength_law",
-           std::string("constant"),
-           "",
-           "where ripples stop growing: nowhere, alike in every wind, or linear in the friction velocity",
-           {},
-           {"none", "constant", "linear"}},
-          {"wavelength_diameters", 250.0, "grain diameters",
-           "final wavelength; of the linear law, at twice the impact threshold", Limits::positive()},
-          {"inflow",
-           std::string("flat_bed"),
-           "",
-           "what comes in from upwind: as from a flat bed, nothing, or a random train of ripples",
-           {},
-           {"flat_bed", "none", "ripples"}},
-          {"lateral_spread", ripple.lateral_spread, "", "spread of a hop across the wind / mean length",
-           Limits::not_negative()},
-          {"relief_scale", ripple.relief_scale, "m", "heights count above the surface smoothed over this",
-           Limits::positive()},
-          {"horizons", std::vector<double>{30, 60, 120, 300}, "s", "lead times of the forecasts, increasing",
-           Limits::positive()},
-          {"period", 30.0, "s", "between forecasts, by the stamps of the maps", Limits::positive()},
-          {"wind_window", 60.0, "s", "the wind of so long before the map goes on blowing",
-           Limits::positive()},
-          {"max_gap", 5.0, "s", "longer times without wind are reported", Limits::positive()},
-      },
-      [] { return std::make_shared<Forecaster>(); }};
+  std::vector<ParameterDeclaration> parameters = engine_parameters();
+  parameters.insert(parameters.begin(), frame_parameter());
+  return {"forecaster",
+          "predicts the surface from the newest map and the wind",
+          {"height_map, height_map_updates (grid_map_msgs/GridMap): whole, what has changed",
+           "wind_field (grid_map_msgs/GridMap)",
+           "wind_ahead (aeolian_msgs/WindAhead): the wind to come, where somebody knows it",
+           "freeze_learning (std_srvs/SetBool, a service): with ~members, misses are only watched"},
+          {"forecast (grid_map_msgs/GridMap) for each horizon: elevation, initial [m], lead_time [s], with "
+           "~members spread [m]; stamped with the time for which it holds",
+           "learned (aeolian_msgs/LearnedParameters, latched): with ~members, what misses have told"},
+          parameters,
+          [] { return std::make_shared<Forecaster>(); }};
 }
 
 }  // namespace aeolian

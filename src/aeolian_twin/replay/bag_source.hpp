@@ -56,6 +56,7 @@ class BagSource {
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;
   BoundedQueue<Message> ahead_;
+  std::exception_ptr failure_;  ///< of the thread; read after the end
   std::thread reader_;
 };
 

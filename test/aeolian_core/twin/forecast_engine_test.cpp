@@ -32,7 +32,7 @@ ForecastEngine::Settings settings(bool learns = false) {
   result.learning_horizon = 20;
   if (learns) {
     result.learner.emplace();
-    result.learner->members = 3;
+    result.learner->members = 8;
   }
   return result;
 }
@@ -61,7 +61,7 @@ TEST(ForecastEngine, AJobHoldsWhatAForecastNeeds) {
   EXPECT_EQ(taken.job->time, epoch + 100);
   EXPECT_EQ(taken.job->start.names(), (std::vector<std::string>{layer::elevation, layer::variance}));
   EXPECT_EQ(taken.job->wind.back().until, 20);
-  EXPECT_EQ(taken.job->members.size(), 3U);
+  EXPECT_EQ(taken.job->members.size(), 8U);
   EXPECT_FALSE(taken.bridged_gap);
   EXPECT_FALSE(taken.not_given_ahead);
   EXPECT_FALSE(taken.without_wind);
@@ -176,7 +176,7 @@ TEST(ForecastEngine, LearningCanBeOff) {
   off.learning = false;
   ForecastEngine engine = engine_with_wind(off, 100);
   const ForecastEngine::Taken taken = engine.take_map(flat(), epoch + 10);
-  EXPECT_EQ(taken.job->members.size(), 3U);
+  EXPECT_EQ(taken.job->members.size(), 8U);
   engine.keep(*taken.job, engine.run(*taken.job));
   EXPECT_TRUE(engine.take_map(flat(), epoch + 30).learned.empty());
 }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "aeolian_core/twin/forecast_spread.hpp"
+
 namespace aeolian {
 namespace {
 
@@ -38,6 +40,7 @@ std::vector<Forecast> plain(const HeightMap& start, const UncertainParameters& p
 ForecastEnsemble::Settings exact() {
   ForecastEnsemble::Settings settings;
   settings.wind_error = 0;
+  settings.model_error_speed = 0;
   settings.direction_error = 0;
   return settings;
 }
@@ -85,17 +88,44 @@ TEST(ForecastEnsemble, AMemberIsTheForecastOfItsParameters) {
   }
 }
 
-TEST(ForecastEnsemble, SpreadIsTheScatterOfTheMembersAndGrows) {
-  const EnsembleForecast result = run(exact(), ripples());
-  const HeightMap::Layer& spread = result.forecasts[1].map.layer(layer::spread);
-  for (const std::size_t cell : {std::size_t{0}, std::size_t{500}, spread.size() - 1}) {
+TEST(ForecastEnsemble, SpreadIsTheScatterOfTheMembersAndWhatComesOverTheBorder) {
+  const HeightMap start = ripples();
+  const EnsembleForecast result = run(exact(), start);
+  const Forecast& forecast = result.forecasts[1];
+  const HeightMap::Layer& spread = forecast.map.layer(layer::spread);
+  const BorderError border = border_error(forecast, forcing_of({}, wind(0.45)[0], {}),
+                                          RippleParameters{}.hop_shortening, RippleParameters{}.slope_effect);
+  const GridGeometry& g = start.geometry();
+  for (std::size_t i = 0; i < spread.size(); i += 37) {
     double mean = 0;
-    for (const auto& member : result.members) mean += member.elevation[1][cell] / 5.0;
+    for (const auto& member : result.members) mean += member.elevation[1][i] / 5.0;
     double square = 0;
-    for (const auto& member : result.members) square += std::pow(member.elevation[1][cell] - mean, 2) / 4;
-    EXPECT_NEAR(spread[cell], std::sqrt(square), 1e-7);
+    for (const auto& member : result.members) square += std::pow(member.elevation[1][i] - mean, 2) / 4;
+    const double at_border = border.at(g, g.x(g.cell_at(i).x), g.y(g.cell_at(i).y));
+    EXPECT_NEAR(spread[i], std::sqrt(square + at_border * at_border), 1e-7);
   }
   EXPECT_GT(mean_of(spread), 1.5 * mean_of(result.forecasts[0].map.layer(layer::spread)));
+}
+
+TEST(ForecastEnsemble, OnABedWithoutEndNothingComesOverABorder) {
+  TwinPhysics physics;
+  physics.ripple.border = Border::periodic;
+  const EnsembleForecast result =
+      ForecastEnsemble(physics, exact())
+          .run(ripples(), wind(0.45), horizons, std::vector<UncertainParameters>(3), {});
+  for (const float s : result.forecasts[1].map.layer(layer::spread)) EXPECT_EQ(s, 0);
+}
+
+TEST(BorderError, FallsOffDownwindOfTheBorder) {
+  const GridGeometry g(0, 0, 0.01, 100, 50);
+  const BorderError east{0, 0.1, 2};
+  EXPECT_DOUBLE_EQ(east.at(g, 0, 0.2), 2);
+  EXPECT_DOUBLE_EQ(east.at(g, 0.1, 0.2), 2 * std::exp(-1));
+  EXPECT_LT(east.at(g, 0.5, 0), 1e-9);
+  const BorderError south_west{-0.75 * M_PI, 0.1, 2};
+  EXPECT_DOUBLE_EQ(south_west.at(g, 1, 0.5), 2);
+  EXPECT_NEAR(south_west.at(g, 1 - 0.1 / std::sqrt(2), 0.25), 2 * std::exp(-1), 1e-9);
+  EXPECT_EQ(BorderError{}.at(g, 0, 0), 0);
 }
 
 TEST(ForecastEnsemble, ErrorsOfTheMapAndOfTheModelAreInTheSpread) {
