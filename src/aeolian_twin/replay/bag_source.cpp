@@ -65,11 +65,13 @@ BagSource::BagSource(const std::string& path, const ReplayConfig& config)
   require_any(path, present, "is no wind", {topics_.wind});
   for (const std::string& topic : clouds) require_type<sensor_msgs::PointCloud2>(path, present, topic);
   require_type<geometry_msgs::TwistStamped>(path, present, topics_.wind);
+  require_type<aeolian_msgs::WindAhead>(path, present, topics_.wind_ahead);
   require_type<tf2_msgs::TFMessage>(path, present, topics_.tf);
   require_type<tf2_msgs::TFMessage>(path, present, topics_.tf_static);
 
   std::vector<std::string> wanted = clouds;
-  for (const std::string& topic : {topics_.wind, topics_.tf, topics_.tf_static}) wanted.push_back(topic);
+  for (const std::string& topic : {topics_.wind, topics_.wind_ahead, topics_.tf, topics_.tf_static})
+    wanted.push_back(topic);
   view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(wanted));
   reader_ = std::thread([this] { read_ahead(); });
 }
@@ -108,6 +110,8 @@ BagSource::Message BagSource::read(const rosbag::MessageInstance& instance) cons
   else if (topic == topics_.wind)
     message.content =
         geometry_msgs::TwistStampedConstPtr(instance.instantiate<geometry_msgs::TwistStamped>());
+  else if (topic == topics_.wind_ahead)
+    message.content = aeolian_msgs::WindAheadConstPtr(instance.instantiate<aeolian_msgs::WindAhead>());
   else
     message.content = Cloud{instance.instantiate<ReadCloud>(), topic};
   return message;

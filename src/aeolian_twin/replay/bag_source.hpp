@@ -7,6 +7,7 @@
 #include <thread>
 #include <variant>
 
+#include <aeolian_msgs/WindAhead.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -30,7 +31,8 @@ class BagSource {
     boost::shared_ptr<const ReadCloud> message;
     std::string topic;
   };
-  using Content = std::variant<Transforms, Cloud, geometry_msgs::TwistStampedConstPtr>;
+  using Content =
+      std::variant<Transforms, Cloud, geometry_msgs::TwistStampedConstPtr, aeolian_msgs::WindAheadConstPtr>;
   struct Message {
     ros::Time time;    ///< of the recording
     double share = 0;  ///< of the bag's time that has passed, 0 to 1

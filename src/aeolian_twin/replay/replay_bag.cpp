@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,12 +29,17 @@ namespace fs = std::filesystem;
 const char* const figures_file = "replay.csv";
 const char* const made_from_file = "made_from.txt";
 
-/// What decides a replay, as a text: the bag (its name, size and time stand for its content) and the
-/// parameters.
+/// What decides a replay, as a text: the parameters, the bag and the files that they name; name, size and
+/// time stand for the content of these.
 std::string origin_of(const std::string& bag, const ReplayConfig& config) {
-  const auto changed = fs::last_write_time(bag).time_since_epoch().count();
-  return fmt::format("{}\n{} bytes, written at {}\n\n{}", fs::path(bag).filename().string(),
-                     fs::file_size(bag), changed, config.text);
+  std::string origin;
+  std::vector<std::string> files = config.files;
+  files.insert(files.begin(), bag);
+  for (const std::string& file : files)
+    if (fs::is_regular_file(file))
+      origin += fmt::format("{}: {} bytes, written at {}\n", fs::path(file).filename().string(),
+                            fs::file_size(file), fs::last_write_time(file).time_since_epoch().count());
+  return origin + "\n" + config.text;
 }
 
 std::string content_of(const fs::path& path) {
@@ -86,6 +92,7 @@ void write_twin_bag(const std::string& bag, const ReplayConfig& config, const fs
     }
     twin.finish();
     out.finish();
+    twin.save_learned(path.parent_path() / "learned.yaml");
   });
 }
 

@@ -50,9 +50,9 @@ class ReplayStopped : public std::exception {
 };
 
 /// Runs the twin on a bag: DIRECTORY/twin.bag with what the nodes would have published, DIRECTORY/report with
-/// a page about it, and DIRECTORY/made_from.txt, last. When that file says that the same bag and parameters
-/// have already led to what is there, nothing is done. Throws Error naming the bag, and ReplayStopped; a
-/// twin.bag is then as it was.
+/// a page about it, DIRECTORY/learned.yaml with what was learned, and DIRECTORY/made_from.txt, last. When
+/// that file says that the same bag and parameters have already led to what is there, nothing is done. Throws
+/// Error naming the bag, and ReplayStopped; a twin.bag is then as it was.
 ReplayFigures replay_bag(const std::string& bag, const ReplayConfig& config, const std::string& directory,
                          const ReplayWatch& watch);
 

@@ -102,8 +102,9 @@ class Sections {
 
 ReplayConfig::Topics read_topics(Sections& sections) {
   ReplayConfig::Topics topics;
-  const std::array<std::pair<const char*, std::string*>, 4> all{{{"points", &topics.points},
+  const std::array<std::pair<const char*, std::string*>, 5> all{{{"points", &topics.points},
                                                                  {"wind", &topics.wind},
+                                                                 {"wind_ahead", &topics.wind_ahead},
                                                                  {"tf", &topics.tf},
                                                                  {"tf_static", &topics.tf_static}}};
   std::vector<ParameterDeclaration> declared;
@@ -139,12 +140,15 @@ ReplayConfig ReplayConfig::read(const std::string& path) {
                       of(describe_comparator()),
                       {},
                       {},
-                      std::move(text)};
+                      std::move(text),
+                      {}};
   require_whole_maps(config.height_mapper);
   const SensorSettings shared = read_sensor(config.height_mapper, "", topics.points);
   config.noise = shared.noise;
   config.sensors = read_sensors(sections.where("height_mapper"), sections.values("height_mapper"), shared);
   for (SensorSettings& sensor : config.sensors) sensor.topic = resolved(sensor.topic);
+  config.files = {config.height_mapper.text("sensor_file"), config.forecaster.text("saltation"),
+                  config.forecaster.text("wind_ahead_file"), config.forecaster.text("learned_file")};
   return config;
 }
 

@@ -13,6 +13,7 @@ struct ReplayConfig {
   struct Topics {
     std::string points = "/points";
     std::string wind = "/wind";
+    std::string wind_ahead = "/wind_ahead";
     std::string tf = "/tf";
     std::string tf_static = "/tf_static";
   };
@@ -25,6 +26,7 @@ struct ReplayConfig {
   std::vector<SensorSettings> sensors;  ///< each with its topic
   SensorNoise noise;                    ///< of the map that no sensor has seen yet
   std::string text;                     ///< of the file
+  std::vector<std::string> files;       ///< that the parameters name
 
   /// Throws Error in one line for a file that cannot be read, a section, topic or parameter that nobody
   /// knows, and as the node does for a value that is not allowed.

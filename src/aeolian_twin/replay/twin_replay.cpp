@@ -3,12 +3,13 @@
 #include <utility>
 
 #include <aeolian_msgs/Comparison.h>
+#include <aeolian_msgs/LearnedParameters.h>
 #include <fmt/format.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
-#include "aeolian_twin/nodes/settings.hpp"
+#include "aeolian_twin/nodes/engine_settings.hpp"
 
 namespace aeolian {
 namespace {
@@ -46,6 +47,7 @@ TwinReplay::TwinReplay(const ReplayConfig& config, TwinBag& out, Complain compla
                                       const SensorSettings& from) { fuse(cloud, pose, measured, from); };
   for (const SensorSettings& sensor : config.sensors)
     inputs_[sensor.topic] = std::make_unique<Input>(sensor, frames, use, tell(mapper), nullptr);
+  prepare_engine(config.forecaster, engine_, tell(forecaster));
 }
 
 Tell TwinReplay::tell(const std::string& node) {
@@ -81,6 +83,10 @@ void TwinReplay::finish() {
   if (forecasts_ == 0) throw Error("there is no forecast: " + complaints());
 }
 
+void TwinReplay::save_learned(const std::string& path) {
+  if (lessons_ > 0) engine_.learner()->save(path);
+}
+
 void TwinReplay::take_content(const BagSource::Transforms& transforms) {
   for (const geometry_msgs::TransformStamped& transform : transforms.message->transforms) {
     try {
@@ -110,6 +116,15 @@ void TwinReplay::take_content(const geometry_msgs::TwistStampedConstPtr& wind) {
     tell(forecaster)("wind", false, error.what());
   }
   scorer_.take_wind({clock_.seconds(stamp), felt.friction_velocity, felt.direction, felt.air_density});
+}
+
+void TwinReplay::take_content(const aeolian_msgs::WindAheadConstPtr& ahead) {
+  try {
+    require_frame(config_.forecaster, ahead->header);
+    engine_.give_wind_ahead(to_wind_samples(*ahead, bed_roughness(config_.forecaster)));
+  } catch (const Error& error) {
+    tell(forecaster)("wind ahead", false, error.what());
+  }
 }
 
 void TwinReplay::fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& measured,
@@ -160,18 +175,31 @@ void TwinReplay::take_map(const GridMap& message) {
   try {
     require_frame(config_.forecaster, header);
     ForecastEngine::Taken taken = engine_.take_map(*map, header.stamp.toSec());
-    if (taken.without_wind)
-      tell(forecaster)("wind", false,
-                       fmt::format("none is known before the map at {}.{:09}: no forecast", header.stamp.sec,
-                                   header.stamp.nsec));
-    if (taken.bridged_gap)
-      tell(forecaster)(
-          "wind", false,
-          fmt::format("a gap of {:.1f} s is bridged with the mean of the rest", *taken.bridged_gap));
+    say(taken, header);
+    for (const ParameterLearner::Update& update : taken.learned) {
+      lessons_ += update.learned ? 1 : 0;
+      write("/learned", now_, shared(to_message(engine_.learner()->state(), update, header)));
+    }
     if (taken.job) forecast(std::move(*taken.job), header);
   } catch (const Error& error) {
     tell(forecaster)("map", false, error.what());
   }
+}
+
+/// What is amiss with the wind of a forecast.
+void TwinReplay::say(const ForecastEngine::Taken& taken, const std_msgs::Header& header) {
+  if (taken.without_wind)
+    tell(forecaster)("wind", false,
+                     fmt::format("there is none in the {} s before the map at {}.{:09}: no forecast",
+                                 engine_.settings().wind.window, header.stamp.sec, header.stamp.nsec));
+  if (taken.bridged_gap)
+    tell(forecaster)(
+        "wind", false,
+        fmt::format("a gap of {:.1f} s is bridged with the mean of the rest", *taken.bridged_gap));
+  if (taken.not_given_ahead)
+    tell(forecaster)("wind ahead", false,
+                     fmt::format("{:.0f} s of {:.0f} are not given and are bridged with the wind so far",
+                                 *taken.not_given_ahead, engine_.settings().horizons.back()));
 }
 
 void TwinReplay::forecast(ForecastJob job, const std_msgs::Header& header) {

@@ -43,6 +43,8 @@ class TwinReplay {
   /// To be called after the last message. Throws Error, with what was amiss, when there is no map or no
   /// forecast.
   void finish();
+  /// Writes what was learned from misses, if anything was.
+  void save_learned(const std::string& path);
 
  private:
   using GridMap = grid_map_msgs::GridMap;
@@ -59,12 +61,14 @@ class TwinReplay {
   void take_content(const BagSource::Transforms& transforms);
   void take_content(const BagSource::Cloud& cloud);
   void take_content(const geometry_msgs::TwistStampedConstPtr& wind);
+  void take_content(const aeolian_msgs::WindAheadConstPtr& ahead);
   void fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& measured,
             const SensorSettings& sensor);
   void publish_map();
   void publish_bed(const Eigen::Isometry3d& bed);
   void take_map(const GridMap& message);
   void forecast(ForecastJob job, const std_msgs::Header& header);
+  void say(const ForecastEngine::Taken& taken, const std_msgs::Header& header);
   void deliver_forecasts_due(const ros::Time& map);
   void deliver_first();
   void publish(std::vector<ForecastScorer::Score> scores);
@@ -95,6 +99,7 @@ class TwinReplay {
   RelativeClock clock_;  ///< of the scorer
   std::deque<Running> running_;
   std::size_t maps_ = 0;
+  std::size_t lessons_ = 0;
   std::size_t forecasts_ = 0;
 };
 
