@@ -39,8 +39,8 @@ TwinReplay::TwinReplay(const ReplayConfig& config, TwinBag& out, Complain compla
       wind_(config.wind_estimator, config.topics.wind, transforms_, tell(estimator)),
       engine_(read_engine(config.forecaster, tell(forecaster))),
       scorer_(read_scorer(config.comparator)) {
-  const CloudPlacer::Frames frames{transforms_, config.height_mapper.text("frame_id"),
-                                   ros::WallDuration(config.height_mapper.number("tf_timeout")),
+  // What still waits at the end has waited long enough: there is no other time to lose patience at.
+  const CloudPlacer::Frames frames{transforms_, config.height_mapper.text("frame_id"), ros::WallDuration(0),
                                    static_cast<std::uint32_t>(config.height_mapper.integer("queue_size"))};
   const CloudPlacer::Use use = [this](const PointCloud& cloud, const Eigen::Isometry3d& pose,
                                       const ros::Time& measured,
@@ -52,14 +52,15 @@ TwinReplay::TwinReplay(const ReplayConfig& config, TwinBag& out, Complain compla
 
 Tell TwinReplay::tell(const std::string& node) {
   return [this, node](const std::string& thing, bool well, const std::string& line) {
+    // The clouds are there, as BagSource knows: that none has come is no news before the bag has begun.
+    if (node == mapper && now_.isZero()) return;
     Health& health = health_[node];
     const std::string key = node + ": " + thing;
     if (well) {
       health.good(thing, line);
       last_complaints_.erase(key);
     } else {
-      // What has not come yet is no news before the bag has begun.
-      if (health.bad(thing, line) && !now_.isZero()) complain_(fmt::format("{}: {}", key, line));
+      if (health.bad(thing, line)) complain_(fmt::format("{}: {}", key, line));
       last_complaints_[key] = line;
     }
   };
@@ -79,6 +80,7 @@ void TwinReplay::take(const BagSource::Message& message) {
 
 void TwinReplay::finish() {
   while (!running_.empty()) deliver_first();
+  for (const auto& [topic, input] : inputs_) input->watch();
   if (maps_ == 0) throw Error("there is no map: " + complaints());
   if (forecasts_ == 0) throw Error("there is no forecast: " + complaints());
 }
