@@ -132,7 +132,7 @@ void ReadTheBag(benchmark::State& state) {
   });
 }
 
-/// All but forecasts: the first comes after the end of the day.
+/// All but what needs wind: no forecasts, no scores.
 void MapsOnly(benchmark::State& state) {
   const Day& made = day();
   measure(state, [&] {
