@@ -183,7 +183,8 @@ TEST_F(ChainTest, ForecastsThatNobodyMeasuredAreDroppedAndTimeMayJumpBack) {
   send_map(ripples(), ros::Time(1505.5));
   ASSERT_TRUE(wait_until([&] { return forecasts_.messages.size() == 2; }));
   send_map(ripples(), ros::Time(1509));  // 0.5 s before the second is due, 1.5 s after the first
-  EXPECT_TRUE(diagnostics_.warns("comparator", "the map nearest to a forecast for 1507"));
+  EXPECT_TRUE(
+      diagnostics_.warns("comparator", "a forecast for 1507.500000000: the nearest map is 1.50 s away"));
   send_map(ripples(), ros::Time(1000));
   EXPECT_TRUE(diagnostics_.warns("comparator",
                                  "time jumped back (a bag that loops?): 1 waiting forecasts were dropped"));

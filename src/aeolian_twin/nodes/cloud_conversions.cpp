@@ -56,7 +56,7 @@ Coordinate find_coordinate(const PointCloud2& message, const std::string& name) 
   return {found->offset, is_double, (message.is_bigendian != 0) != machine_is_big_endian};
 }
 
-void check_size(const PointCloud2& message) {
+void check_size(const PointCloud2& message, std::size_t size) {
   const std::uint64_t row = std::uint64_t{message.width} * message.point_step;
   const bool one_row = message.height <= 1;
   const std::uint64_t step = one_row ? row : message.row_step;
@@ -64,9 +64,9 @@ void check_size(const PointCloud2& message) {
     throw Error(fmt::format("point cloud: row_step is {}, must be at least {} ({} points of {} bytes)", step,
                             row, message.width, message.point_step));
   const std::uint64_t needed = message.height == 0 ? 0 : step * (message.height - 1) + row;
-  if (message.data.size() < needed)
-    throw Error(fmt::format("point cloud: data has {} bytes, must have {} ({} x {} points of {} bytes)",
-                            message.data.size(), needed, message.width, message.height, message.point_step));
+  if (size < needed)
+    throw Error(fmt::format("point cloud: data has {} bytes, must have {} ({} x {} points of {} bytes)", size,
+                            needed, message.width, message.height, message.point_step));
 }
 
 /// Appends a coordinate of points that is a float in this machine's order, by way of the fast cache.
@@ -79,17 +79,21 @@ void append(const std::uint8_t* from, std::size_t step, std::size_t count, std::
 }  // namespace
 
 PointCloud to_point_cloud(const PointCloud2& message) {
+  return to_point_cloud(message, message.data.data(), message.data.size());
+}
+
+PointCloud to_point_cloud(const PointCloud2& message, const std::uint8_t* data, std::size_t size) {
   const Coordinate x = find_coordinate(message, "x");
   const Coordinate y = find_coordinate(message, "y");
   const Coordinate z = find_coordinate(message, "z");
-  check_size(message);
+  check_size(message, size);
   constexpr double far = 1000;  // a float still resolves 0.06 mm here
   PointCloud cloud;
   cloud.reserve(std::size_t{message.width} * message.height);
   const std::size_t row_step = message.height <= 1 ? 0 : message.row_step;
   const auto for_each_point = [&](auto&& visit) {
     for (std::size_t row = 0; row < message.height; ++row) {
-      const std::uint8_t* point = message.data.data() + row * row_step;
+      const std::uint8_t* point = data + row * row_step;
       for (std::size_t i = 0; i < message.width; ++i, point += message.point_step)
         if (!visit(x.read(point), y.read(point), z.read(point))) return;
     }
@@ -109,7 +113,7 @@ PointCloud to_point_cloud(const PointCloud2& message) {
     for (std::size_t row = 0; row < message.height; ++row)
       for (std::size_t i = 0; i < message.width; i += points_at_once) {
         const std::size_t count = std::min(points_at_once, message.width - i);
-        const std::uint8_t* const first = message.data.data() + row * row_step + i * step;
+        const std::uint8_t* const first = data + row * row_step + i * step;
         append(first + x.offset, step, count, cloud.x);
         append(first + y.offset, step, count, cloud.y);
         append(first + z.offset, step, count, cloud.z);

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <deque>
 #include <memory>
 #include <utility>
 
@@ -8,18 +5,17 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/twin/comparison.hpp"
-#include "aeolian_core/twin/difference.hpp"
-#include "aeolian_core/twin/forecast.hpp"
-#include "aeolian_core/twin/on_grid.hpp"
+#include "aeolian_core/twin/forecast_scorer.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/relative_clock.hpp"
+#include "aeolian_twin/nodes/settings.hpp"
 
 namespace aeolian {
 
-/// Scores every forecast against the measured map nearest to the time for which it holds.
+/// ForecastScorer on topics.
 class Comparator : public Node {
  public:
   Comparator() : Node(describe_comparator()) {}
@@ -27,21 +23,8 @@ class Comparator : public Node {
  private:
   using Map = grid_map_msgs::GridMap::ConstPtr;
 
-  struct Measured {
-    std_msgs::Header header;
-    std::shared_ptr<const HeightMap> surface;  ///< elevation, and variance if known
-  };
-  struct WindSample {
-    ros::Time stamp;
-    double friction_velocity;
-    double direction;
-  };
-
   void start() override {
-    tolerance_ = parameters().number("tolerance");
-    direction_ = degrees_to_radians(parameters().number("direction_deg"));
-    max_maps_ = static_cast<std::size_t>(parameters().integer("max_maps"));
-    max_pending_ = static_cast<std::size_t>(parameters().integer("max_pending"));
+    scorer_ = std::make_unique<ForecastScorer>(read_scorer(parameters()));
     comparison_publisher_ = nh().advertise<aeolian_msgs::Comparison>("comparison", 100);
     difference_publisher_ = nh().advertise<grid_map_msgs::GridMap>("difference", 1, /*latch=*/true);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Comparator::take_wind, this);
@@ -63,8 +46,8 @@ class Comparator : public Node {
   void take_wind(const Map& message) {
     try {
       const WindField wind = to_wind_field(*message);
-      wind_.push_back({message->info.header.stamp, wind.friction_velocity, wind.direction});
-      if (wind_.size() > 100000) wind_.pop_front();  // some hours of readings
+      scorer_->take_wind({clock_.seconds(message->info.header.stamp), wind.friction_velocity, wind.direction,
+                          wind.air_density});
       good("wind", "its direction is known");
     } catch (const Error& error) {
       bad("wind", error.what());
@@ -74,120 +57,70 @@ class Comparator : public Node {
   void take_forecast(const Map& message) {
     try {
       require_frame(forecast_subscriber_.getTopic(), message->info.header);
-      pending_.push_back(message);
-      if (pending_.size() > max_pending_) {
-        pending_.pop_front();
-        bad("pending",
-            fmt::format("more than {} forecasts wait (~max_pending): the oldest was dropped", max_pending_));
-      }
-      score_pending();
+      ForecastScorer::Taken taken =
+          scorer_->take_forecast(std::make_shared<const HeightMap>(to_height_map(*message)),
+                                 clock_.seconds(message->info.header.stamp));
+      if (taken.oldest_dropped)
+        bad("pending", fmt::format("more than {} forecasts wait (~max_pending): the oldest was dropped",
+                                   parameters().integer("max_pending")));
+      publish(std::move(taken.scores));
     } catch (const Error& error) {
       bad("forecast", error.what());
     }
   }
 
   void take_map(const HeightMap& map, const std_msgs::Header& header, const TileMask& changed) {
-    if (!maps_.empty() && header.stamp < maps_.back().header.stamp) {
+    const bool first = scorer_->newest_map() == nullptr;
+    ForecastScorer::Taken taken = scorer_->take_map(
+        changed.empty() && !first ? scorer_->newest_map() : std::make_shared<const HeightMap>(map),
+        clock_.seconds(header.stamp));
+    if (taken.begun_anew)
       bad("clock", fmt::format("time jumped back (a bag that loops?): {} waiting forecasts were dropped",
-                               pending_.size()));
-      pending_.clear();
-      maps_.clear();
-      wind_.clear();
-    } else if (!maps_.empty()) {
+                               *taken.begun_anew));
+    else if (!first)
       good("clock", "time runs forward");
-    }
-    const bool same = changed.empty() && !maps_.empty();
-    maps_.push_back({header, same ? maps_.back().surface : std::make_shared<const HeightMap>(map)});
-    if (maps_.size() > max_maps_) maps_.pop_front();
-    score_pending();
+    publish(std::move(taken.scores));
     good("map", "in use");
   }
 
-  /// Scores the forecasts whose time has come: the nearest map is known once one at or after it has arrived.
-  void score_pending() {
-    if (maps_.empty()) return;
-    const ros::Time newest = maps_.back().header.stamp;
-    const auto due = [&](const Map& forecast) { return forecast->info.header.stamp <= newest; };
-    const auto first_due =
-        std::stable_partition(pending_.begin(), pending_.end(), [&](const Map& m) { return !due(m); });
-    const std::vector<Map> ready(first_due, pending_.end());
-    pending_.erase(first_due, pending_.end());
-    for (const Map& forecast : ready) {
-      try {
-        score(*forecast, nearest_map(forecast->info.header.stamp));
-      } catch (const Error& error) {
-        bad("forecast", error.what());
+  void publish(std::vector<ForecastScorer::Score> scores) {
+    for (ForecastScorer::Score& score : scores) {
+      const ros::Time time = clock_.stamp(score.time);
+      if (!score.refused.empty()) {
+        bad("forecast", fmt::format("a forecast for {}.{:09}: {}", time.sec, time.nsec, score.refused));
+        continue;
       }
+      std_msgs::Header header;
+      header.frame_id = parameters().text("frame_id");
+      header.stamp = time;
+      comparison_publisher_.publish(to_message(score.comparison, header, clock_.stamp(score.issued)));
+      header.stamp = clock_.stamp(score.measured_time);
+      difference_publisher_.publish(to_message(score.difference, header));
+      scorer_->reuse(std::move(score.difference));
+      good("forecast", fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of "
+                                   "{:.2f} against persistence",
+                                   score.time - score.issued, 1e3 * score.comparison.rmse,
+                                   score.comparison.skill_persistence));
     }
   }
 
-  const Measured& nearest_map(const ros::Time& time) const {
-    const auto distance = [&](const Measured& map) { return std::abs((map.header.stamp - time).toSec()); };
-    const Measured& nearest =
-        *std::min_element(maps_.begin(), maps_.end(),
-                          [&](const Measured& a, const Measured& b) { return distance(a) < distance(b); });
-    if (distance(nearest) > tolerance_)
-      throw Error(fmt::format(
-          "the map nearest to a forecast for {}.{:09} is {:.2f} s away, must be within {} s (~tolerance)",
-          time.sec, time.nsec, distance(nearest), tolerance_));
-    return nearest;
-  }
-
-  void score(const grid_map_msgs::GridMap& forecast_message, const Measured& measured) {
-    const GridGeometry& geometry = measured.surface->geometry();
-    const HeightMap forecast = on_grid(to_height_map(forecast_message), geometry);
-    const HeightMap::Layer& predicted = forecast.layer(layer::elevation);
-    const HeightMap::Layer& heights = measured.surface->layer(layer::elevation);
-
-    const std_msgs::Header& header = forecast_message.info.header;
-    const ros::Time issued = header.stamp - ros::Duration(lead_time(forecast));
-    const Comparison comparison = compare(geometry, predicted, heights, forecast.layer(layer::initial),
-                                          wind_direction(issued, header.stamp));
-    comparison_publisher_.publish(to_message(comparison, header, issued));
-
-    difference_ = difference_map(forecast, *measured.surface, std::move(difference_));
-    difference_.add(layer::elevation, heights);
-    difference_.add(layer::lead_time, forecast.layer(layer::lead_time));
-    difference_publisher_.publish(to_message(difference_, measured.header));
-    good("forecast",
-         fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of {:.2f} against "
-                     "persistence",
-                     (header.stamp - issued).toSec(), 1e3 * comparison.rmse, comparison.skill_persistence));
-  }
-
-  /// To a microsecond, as the layer holds floats.
-  static double lead_time(const HeightMap& forecast) {
-    for (const float t : forecast.layer(layer::lead_time))
-      if (std::isfinite(t)) return std::round(static_cast<double>(t) * 1e6) / 1e6;
-    throw Error("forecast: layer 'lead_time' has no known cell");
-  }
-
-  /// Mean over an interval, weighted by friction velocity; ~direction_deg when no wind is known there.
-  double wind_direction(const ros::Time& from, const ros::Time& to) const {
-    double east = 0;
-    double north = 0;
-    for (const WindSample& sample : wind_) {
-      if (sample.stamp < from || sample.stamp > to) continue;
-      east += sample.friction_velocity * std::cos(sample.direction);
-      north += sample.friction_velocity * std::sin(sample.direction);
-    }
-    return east == 0 && north == 0 ? direction_ : std::atan2(north, east);
-  }
-
-  double tolerance_ = 0;
-  double direction_ = 0;
-  std::size_t max_maps_ = 0;
-  std::size_t max_pending_ = 0;
-  std::deque<Measured> maps_;  ///< the newest measured maps, oldest first
-  std::deque<Map> pending_;    ///< forecasts whose time has not come
-  std::deque<WindSample> wind_;
+  std::unique_ptr<ForecastScorer> scorer_;
+  RelativeClock clock_;
   ros::Publisher comparison_publisher_;
   ros::Publisher difference_publisher_;
   ros::Subscriber wind_subscriber_;
   ros::Subscriber forecast_subscriber_;
   std::unique_ptr<MapReceiver> receiver_;
-  HeightMap difference_;  ///< the last one
 };
+
+ForecastScorer::Settings read_scorer(const Parameters& parameters) {
+  ForecastScorer::Settings settings;
+  settings.tolerance = parameters.number("tolerance");
+  settings.direction = degrees_to_radians(parameters.number("direction_deg"));
+  settings.max_maps = static_cast<std::size_t>(parameters.integer("max_maps"));
+  settings.max_pending = static_cast<std::size_t>(parameters.integer("max_pending"));
+  return settings;
+}
 
 NodeDescription describe_comparator() {
   return {

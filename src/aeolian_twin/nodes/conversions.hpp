@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ HeightMap to_height_map(const grid_map_msgs::GridMap& message, const std::vector
 /// Throws Error for a field x, y or z that is missing or of another type, and for data whose size does not
 /// fit.
 PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message);
+/// The same of a message whose data, `size` bytes, stand elsewhere.
+PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message, const std::uint8_t* data,
+                          std::size_t size);
 /// x, y, z as floats about the cloud's origin, in the cloud's order, in rows of `width` points (0: one row).
 /// The header is the caller's.
 sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width = 0);

@@ -1,22 +1,18 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <utility>
 
-#include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
-#include "aeolian_core/measure/bed_frame.hpp"
-#include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/autosave.hpp"
 #include "aeolian_twin/nodes/cloud_input.hpp"
-#include "aeolian_twin/nodes/live_map.hpp"
+#include "aeolian_twin/nodes/map_keeper.hpp"
 #include "aeolian_twin/nodes/map_publisher.hpp"
 #include "aeolian_twin/nodes/map_services.hpp"
 #include "aeolian_twin/nodes/node.hpp"
@@ -25,28 +21,6 @@ namespace aeolian {
 namespace {
 
 const std::string autosave_topic = "height_map";
-
-FusionParameters read_fusion(const Parameters& parameters, const SensorNoise& sensor) {
-  FusionParameters fusion;
-  fusion.sensor = sensor;
-  fusion.change.rate_sigma = parameters.number("rate_sigma");
-  fusion.change.rate_time = parameters.number("rate_time");
-  fusion.robust = parameters.flag("robust");
-  fusion.gate_sigma = parameters.number("gate_sigma");
-  fusion.gate_patience = parameters.integer("gate_patience");
-  return fusion;
-}
-
-std::optional<GridGeometry> read_grid(const Parameters& parameters) {
-  const double length_x = parameters.number("length_x");
-  const double length_y = parameters.number("length_y");
-  if ((length_x > 0) != (length_y > 0))
-    parameters.refuse("length_y", "positive together with length_x, or 0 with it");
-  if (length_x == 0) return std::nullopt;
-  const double x = parameters.number("min_x");
-  const double y = parameters.number("min_y");
-  return GridGeometry::covering(x, y, x + length_x, y + length_y, parameters.number("cell_size"));
-}
 
 }  // namespace
 
@@ -59,29 +33,28 @@ class HeightMapper : public Node {
   ~HeightMapper() override {
     if (!autosave_ || !unsaved_) return;
     autosave_->wait();
-    autosave_->begin(live_->stored());
+    autosave_->begin(live().stored());
   }
 
  private:
+  using Input = CloudInput<sensor_msgs::PointCloud2>;
+
   void start() override {
-    const SensorSettings shared = read_sensor(parameters(), "", "points");
-    LiveMap::Settings settings;
-    settings.fusion = read_fusion(parameters(), shared.noise);
-    frame_ = parameters().text("frame_id");
-    level_ = parameters().flag("level");
-    settings.frame = level_ ? parameters().text("bed_frame") : frame_;
-    if (level_ && settings.frame == frame_) parameters().refuse("bed_frame", "another than frame_id");
-    if (level_ && parameters().number("autosave_period") > 0)
+    const SensorSettings shared = read_sensor(parameters(), "", nh().resolveName("points"));
+    if (parameters().flag("level") && parameters().number("autosave_period") > 0)
       parameters().refuse("autosave_period", "0 with ~level: a node started again would fit another frame");
-    settings.cell_size = parameters().number("cell_size");
-    settings.max_cells = parameters().number("max_cells");
-    settings.geometry = read_grid(parameters());
-    publish_period_ = ros::Duration(parameters().number("publish_period"));
-    live_ = std::make_unique<LiveMap>(settings);
+    const Tell tell = [this](const std::string& thing, bool well, const std::string& line) {
+      well ? good(thing, line) : bad(thing, line);
+    };
+    keeper_ = std::make_unique<MapKeeper>(parameters(), shared.noise, tell,
+                                          [this](const Eigen::Isometry3d& bed) { send(bed); });
     begin_autosave();
-    publisher_ = std::make_unique<MapPublisher>(nh(), *live_, parameters().flag("incremental"));
+    publisher_ = std::make_unique<MapPublisher>(nh(), live(), parameters().flag("incremental"));
     serve();
-    listen(read_sensors(private_nh().getNamespace(), shared));
+    const std::string name = private_nh().getNamespace();
+    XmlRpc::XmlRpcValue values;
+    ros::param::get(name, values);
+    listen(read_sensors(name, values, shared), tell);
   }
 
   void watch() override {
@@ -89,84 +62,45 @@ class HeightMapper : public Node {
     report_autosave();
   }
 
-  void listen(const std::vector<SensorSettings>& sensors) {
+  void listen(const std::vector<SensorSettings>& sensors, const Tell& tell) {
     listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
-    const CloudInput::Frames frames{tf_buffer_, frame_, ros::WallDuration(parameters().number("tf_timeout")),
-                                    static_cast<std::uint32_t>(parameters().integer("queue_size"))};
-    for (const SensorSettings& sensor : sensors)
-      inputs_.push_back(std::make_unique<CloudInput>(
-          nh(), sensor, frames,
-          [this](const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& measured,
-                 const SensorSettings& from) { fuse(cloud, pose, measured, from); },
-          [this](const std::string& thing, bool well, const std::string& line) {
-            well ? good(thing, line) : bad(thing, line);
-          }));
+    const CloudPlacer::Frames frames{tf_buffer_, parameters().text("frame_id"),
+                                     ros::WallDuration(parameters().number("tf_timeout")),
+                                     static_cast<std::uint32_t>(parameters().integer("queue_size"))};
+    const CloudPlacer::Use use = [this](const PointCloud& cloud, const Eigen::Isometry3d& pose,
+                                        const ros::Time& measured,
+                                        const SensorSettings& from) { fuse(cloud, pose, measured, from); };
+    for (SensorSettings sensor : sensors) {
+      sensor.topic = nh().resolveName(sensor.topic);
+      inputs_.push_back(std::make_unique<Input>(sensor, frames, use, tell, nh().getCallbackQueue()));
+      subscribers_.push_back(nh().subscribe<sensor_msgs::PointCloud2>(sensor.topic, frames.queue_size,
+                                                                      &Input::add, inputs_.back().get()));
+    }
   }
 
-  void fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp,
+  void fuse(const PointCloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& measured,
             const SensorSettings& sensor) {
-    const std::string clouds = sensor.thing("clouds");
     if (!services_->updates_enabled()) {
-      good(clouds, "not used: disable_updates was called");
+      good(sensor.thing("clouds"), "not used: disable_updates was called");
       return;
     }
-    const FusionResult result =
-        live_->fuse(cloud, refined(cloud, in_map(cloud, pose), sensor), stamp, sensor.noise);
-    if (result.used == 0)
-      throw Error(
-          fmt::format("none of {} points can be used: {} not finite, {} out of range, {} outside the map",
-                      cloud.size(), result.not_finite, result.out_of_range, result.outside));
-    const std::string line = fmt::format("{} of {} points used, {} cells refused as outliers", result.used,
-                                         cloud.size(), result.outlier_cells);
-    if (result.outliers > result.used / 2)
-      bad(clouds, "most contradict the map (a sensor or a tf that moved?): " + line);
-    else
-      good(clouds, line);
+    publisher_->note(keeper_->take(cloud, pose, measured, sensor));
     unsaved_ = true;
-    publisher_->note(result.changed);
-    if (stamp < published_ || stamp - published_ >= publish_period_) {
-      publisher_->publish();
-      published_ = stamp;
-    }
+    if (keeper_->is_due(measured)) publisher_->publish();
   }
 
-  /// The pose in the frame of the map; the first cloud says where that is when it is to lie along the bed.
-  Eigen::Isometry3d in_map(const PointCloud& cloud, const Eigen::Isometry3d& pose) {
-    if (!level_) return pose;
-    if (!bed_) {
-      bed_ = fit_bed_frame(cloud, pose);
-      geometry_msgs::TransformStamped transform = tf2::eigenToTransform(*bed_);
-      transform.header.frame_id = frame_;
-      transform.header.stamp = ros::Time::now();
-      transform.child_frame_id = live_->frame();
-      broadcaster_.sendTransform(transform);
-      const double slope = std::acos(std::clamp(bed_->linear()(2, 2), -1.0, 1.0));
-      good("bed", fmt::format("leans by {:.2f} degrees: '{}' lies along it", radians_to_degrees(slope),
-                              live_->frame()));
-    }
-    return bed_->inverse() * pose;
+  void send(const Eigen::Isometry3d& bed) {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(bed);
+    transform.header.frame_id = parameters().text("frame_id");
+    transform.header.stamp = ros::Time::now();
+    transform.child_frame_id = live().frame();
+    broadcaster_.sendTransform(transform);
   }
 
-  /// The pose refined against the map when this is asked for and can be done.
-  Eigen::Isometry3d refined(const PointCloud& cloud, const Eigen::Isometry3d& pose,
-                            const SensorSettings& sensor) {
-    if (!sensor.registration || !live_->begun()) return pose;
-    if (count_known(live_->map().layer(layer::elevation)) == 0) return pose;
-    const std::string thing = sensor.thing("registration");
-    const Registration result = register_cloud(cloud, pose, live_->map(), *sensor.registration);
-    if (result.accepted)
-      good(thing,
-           fmt::format("moved by {:.2f} mm, turned by {:.3f} degrees; {} of 6 degrees of freedom, median "
-                       "distance {:.2f} mm",
-                       1e3 * result.shift, radians_to_degrees(result.angle), result.held,
-                       1e3 * result.median_residual));
-    else
-      bad(thing, "refused, the cloud is used as tf says: " + result.reason);
-    return result.pose;
-  }
+  LiveMap& live() { return keeper_->live(); }
 
   void serve() {
-    MapServices::Host host{*live_, tf_buffer_};
+    MapServices::Host host{live(), tf_buffer_};
     host.default_file = [this] {
       std::string file = parameters().text("map_file");
       private_nh().getParam("map_file", file);  // anew at each call, so that `rosparam set` chooses the next
@@ -200,14 +134,14 @@ class HeightMapper : public Node {
     autosave_timer_ = nh().createWallTimer(ros::WallDuration(period), [this](const ros::WallTimerEvent&) {
       report_autosave();
       if (!unsaved_ || autosave_->under_way()) return;
-      autosave_->begin(live_->stored());
+      autosave_->begin(live().stored());
       unsaved_ = false;
     });
   }
 
   void go_on_with(const std::string& file) {
     try {
-      live_->load(load_map(file, autosave_topic));
+      live().load(load_map(file, autosave_topic));
       good("autosave", "went on with the map of " + file);
     } catch (const Error& error) {
       bad("autosave", error.what());
@@ -226,21 +160,17 @@ class HeightMapper : public Node {
     }
   }
 
-  std::string frame_;  ///< in which tf places the sensors
-  bool level_ = false;
-  std::optional<Eigen::Isometry3d> bed_;  ///< frame of the map in `frame_`, when it lies along the bed
   tf2_ros::StaticTransformBroadcaster broadcaster_;
-  std::unique_ptr<LiveMap> live_;
+  std::unique_ptr<MapKeeper> keeper_;
   std::unique_ptr<MapPublisher> publisher_;
   std::unique_ptr<MapServices> services_;
   std::unique_ptr<Autosave> autosave_;
   bool unsaved_ = false;
-  ros::Duration publish_period_;
-  ros::Time published_;
 
   tf2_ros::Buffer tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;
-  std::vector<std::unique_ptr<CloudInput>> inputs_;
+  std::vector<std::unique_ptr<Input>> inputs_;
+  std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer autosave_timer_;
 };
 

@@ -13,7 +13,7 @@ const ros::WallDuration whole_again(10);
 }  // namespace
 
 MapPublisher::MapPublisher(ros::NodeHandle& node, const LiveMap& live, bool incremental)
-    : live_(live), incremental_(incremental) {
+    : live_(live), told_(live), incremental_(incremental) {
   const auto greet = [this](const ros::SingleSubscriberPublisher& to) {
     const bool has_it = latched_ && to.getTopic() == whole_publisher_.getTopic();
     if (!has_it && live_.begun() && !live_.stamp().isZero()) to.publish(whole());
@@ -27,21 +27,15 @@ MapPublisher::MapPublisher(ros::NodeHandle& node, const LiveMap& live, bool incr
 
 grid_map_msgs::GridMap MapPublisher::whole() const { return to_message(live_.map(), live_.header()); }
 
-const HeightMap& MapPublisher::as_told() {
-  const HeightMap& map = untold_ ? live_.map(*untold_) : live_.map();
-  untold_ = TileMask(map.geometry());
-  return map;
-}
-
 void MapPublisher::note(const TileMask& changed) {
   latched_ = false;
-  if (untold_) untold_->merge(changed);
+  told_.note(changed);
   if (unseen_) changed_.merge(changed);
 }
 
 void MapPublisher::note_all() {
   latched_ = false;
-  untold_.reset();
+  told_.note_all();
   unseen_.reset();
 }
 
@@ -58,7 +52,7 @@ void MapPublisher::publish() {
 }
 
 void MapPublisher::publish_whole() {
-  whole_publisher_.publish(to_message(as_told(), live_.header()));
+  whole_publisher_.publish(to_message(told_.tell(), live_.header()));
   latched_ = true;
   whole_at_ = ros::WallTime::now();
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include <grid_map_msgs/GridMap.h>
 #include <ros/node_handle.h>
@@ -10,7 +9,7 @@
 
 #include "aeolian_core/surface/tile_mask.hpp"
 #include "aeolian_core/surface/unseen_changes.hpp"
-#include "aeolian_twin/nodes/live_map.hpp"
+#include "aeolian_twin/nodes/told_map.hpp"
 
 namespace aeolian {
 
@@ -18,10 +17,8 @@ namespace aeolian {
 /// that differ notably from what was published, as grid maps of a rectangle each on `height_map_updates`, or
 /// a single cell when none does. One who starts to listen on either topic gets the whole map; with updates,
 /// all get it again after ten seconds in which it has changed, so that nothing that was lost is missed for
-/// long. Nothing is made that nobody listens to.
-///
-/// Of a still tile that takes scans together (HeightFusion) a published map shows the first, until the tile
-/// tells again: what is shown of it is at most 1/64 of rate_time old.
+/// long. Nothing is made that nobody listens to. What is shown of a still tile that takes scans together
+/// (ToldMap) is at most 1/64 of rate_time old.
 class MapPublisher {
  public:
   /// `live` must outlive the publisher.
@@ -36,7 +33,6 @@ class MapPublisher {
   void publish();
 
  private:
-  const HeightMap& as_told();
   grid_map_msgs::GridMap whole() const;
   void send_whole(const ros::SingleSubscriberPublisher& to) const;
   void publish_changes();
@@ -44,10 +40,10 @@ class MapPublisher {
   void begin_updates();
 
   const LiveMap& live_;
+  ToldMap told_;
   bool incremental_;
   bool latched_ = false;  ///< the last whole map that was published is the present one
   ros::WallTime whole_at_;
-  std::optional<TileMask> untold_;  ///< changed since the whole map was last published; nothing: all
   TileMask changed_;
   std::unique_ptr<UnseenChanges> unseen_;
   ros::Publisher whole_publisher_;
