@@ -26,7 +26,7 @@ class Comparator : public Node {
   void start() override {
     scorer_ = std::make_unique<ForecastScorer>(read_scorer(parameters()));
     comparison_publisher_ = nh().advertise<aeolian_msgs::Comparison>("comparison", 100);
-    difference_publisher_ = nh().advertise<grid_map_msgs::GridMap>("difference", 1, /*latch=*/true);
+    difference_publisher_ = nh().advertise<grid_map_msgs::GridMap>("difference", 10, /*latch=*/true);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Comparator::take_wind, this);
     forecast_subscriber_ = nh().subscribe("forecast", 100, &Comparator::take_forecast, this);
     WantedMap wanted;

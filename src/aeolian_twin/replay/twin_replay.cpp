@@ -178,9 +178,9 @@ void TwinReplay::take_map(const GridMap& message) {
     require_frame(config_.forecaster, header);
     ForecastEngine::Taken taken = engine_.take_map(*map, header.stamp.toSec());
     say(taken, header);
-    for (const ParameterLearner::Update& update : taken.learned) {
-      lessons_ += update.learned ? 1 : 0;
-      write("/learned", now_, shared(to_message(engine_.learner()->state(), update, header)));
+    if (taken.learned) {
+      lessons_ += taken.learned->learned ? 1 : 0;
+      write("/learned", now_, shared(to_message(engine_.learner()->state(), *taken.learned, header)));
     }
     if (taken.job) forecast(std::move(*taken.job), header);
   } catch (const Error& error) {
@@ -205,19 +205,16 @@ void TwinReplay::say(const ForecastEngine::Taken& taken, const std_msgs::Header&
 }
 
 void TwinReplay::forecast(ForecastJob job, const std_msgs::Header& header) {
-  const auto begun = std::make_shared<const ForecastJob>(std::move(job));
-  running_.push_back(
-      {begun, header, now_, std::async(std::launch::async, [this, begun] { return engine_.run(*begun); })});
+  running_.push_back({header, now_, std::async(std::launch::async, [this, begun = std::move(job)] {
+                        return engine_.run(begun);
+                      })});
 }
 
-/// Those that could be scored with a map of that time, and all that may be learned from: an engine learns
-/// from the forecasts in its hands, so that it must have them as soon as a node's would.
+/// Those that could be scored with a map of that time.
 void TwinReplay::deliver_forecasts_due(const ros::Time& map) {
-  const ForecastEngine::Settings& settings = engine_.settings();
-  const bool learns = settings.learner && settings.learning;
+  const ros::Duration shortest(engine_.settings().horizons.front());
   const auto is_due = [&](const Running& forecast) {
-    return learns || map < forecast.header.stamp ||
-           map >= forecast.header.stamp + ros::Duration(settings.horizons.front());
+    return map < forecast.header.stamp || map >= forecast.header.stamp + shortest;
   };
   while (!running_.empty() && (is_due(running_.front()) || running_.size() >= most_running)) deliver_first();
 }
@@ -226,7 +223,7 @@ void TwinReplay::deliver_first() {
   Running forecast = std::move(running_.front());
   running_.pop_front();
   try {
-    EnsembleForecast result = forecast.result.get();
+    const EnsembleForecast result = forecast.result.get();
     ++forecasts_;
     for (const Forecast& at : result.forecasts) {
       std_msgs::Header header = forecast.header;
@@ -241,7 +238,6 @@ void TwinReplay::deliver_first() {
                                      config_.comparator.integer("max_pending")));
       publish(std::move(taken.scores));
     }
-    engine_.keep(*forecast.job, std::move(result));
   } catch (const Error& error) {
     tell(forecaster)("forecast", false, error.what());
   }

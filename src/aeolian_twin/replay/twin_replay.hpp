@@ -52,7 +52,6 @@ class TwinReplay {
 
   /// A forecast that runs.
   struct Running {
-    std::shared_ptr<const ForecastJob> job;
     std_msgs::Header header;  ///< of the map
     ros::Time began;          ///< in the bag
     std::future<EnsembleForecast> result;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "error_of.hpp"
+#include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

@@ -30,7 +30,7 @@ struct RippleExperiment {
 
 /// One ripple alone in a periodic row grows until it keeps its shape; its heights over the flux that moves it
 /// (eq. 5.5). The flux is read off the change of the bed.
-inline Translation translation_of_a_grown_ripple(int hops_per_wavelength) {
+inline MovingShape translation_of_a_grown_ripple(int hops_per_wavelength) {
   using E = RippleExperiment;
   RippleParameters parameters;
   parameters.border = Border::periodic;
