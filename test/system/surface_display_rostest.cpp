@@ -29,8 +29,9 @@ HeightMap slope(float raised = 0) {
 class SurfaceDisplayTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(
-        wait_until([&] { return whole_.getNumSubscribers() > 0 && updates_.getNumSubscribers() > 0; }));
+    ASSERT_TRUE(wait_until([&] {
+      return whole_.getNumSubscribers() == 2 && updates_.getNumSubscribers() == 2;
+    })) << "both displays listen";
   }
 
   void send(const ros::Publisher& publisher, const HeightMap& map, double stamp) {
@@ -58,7 +59,8 @@ TEST_F(SurfaceDisplayTest, OneWhoStartsToLookGetsTheLastPictureAndThenWhatChange
 
   Listener<PointCloud2> clouds(nh_, "cloud");
   Listener<visualization_msgs::MarkerArray> meshes(nh_, "mesh");
-  ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 1 && meshes.messages.size() == 1; }));
+  ASSERT_TRUE(wait_until([&] { return clouds.messages.size() == 1 && meshes.messages.size() == 1; }))
+      << clouds.messages.size() << " clouds, " << meshes.messages.size() << " meshes";
   EXPECT_EQ(clouds.messages[0]->header.stamp, ros::Time(2));
   EXPECT_EQ(clouds.messages[0]->width, grid.size());
   EXPECT_GT(z_of(*clouds.messages[0], 31, 31), 0.5F);
