@@ -184,7 +184,7 @@ std::vector<ParameterDeclaration> engine_parameters() {
        Limits::not_negative()},
       {"seed", 1, "", "decides everything random", Limits::not_negative()},
       {"learning",
-       std::string("on"),
+       std::string("off"),
        "",
        "from misses: on, frozen (misses are only watched), or off",
        {},
