@@ -143,17 +143,16 @@ void lattice_day_rows(AccuracyTable& table, const std::string& folder) {
   };
 
   const auto given = outcomes_of(From::hindcasts, true);
-  rows(
-      table, given, "A lattice bed, the wind given ahead",
-      "24 days of a bed of single grains (0.51 m × 0.26 m, 0.8 mm columns; friction velocity "
-      "0.38 to 0.5 m/s, gusts of 12 %, turns of up to 20° to either side, ripples five to ten minutes old "
-      "when "
-      "the day begins), seen with 0.2 mm of noise on 2 mm cells by a twin whose anemometer is wrong by a "
-      "factor "
-      "of 0.85 to 1.15. Default priors, 20 members, ten minutes of learning from a map each minute: "
-      "hindcasts "
-      "with the wind that blew. Then 5-minute forecasts, one begun each minute from 10 to 15 min; RMSE over "
-      "them against the true surface. Model and priors know nothing of the lattice but its defaults.");
+  rows(table, given, "A lattice bed, the wind given ahead",
+       "24 days of a bed of single grains (0.51 m × 0.26 m, 0.8 mm columns; friction velocity "
+       "0.38 to 0.5 m/s, gusts of 12 %, turns of up to 20° to either side, ripples five to ten minutes old "
+       "when "
+       "the day begins), seen with 0.2 mm of noise on 2 mm cells by a twin whose anemometer is wrong by a "
+       "factor "
+       "of 0.85 to 1.15. Default priors, 20 members, ten minutes of learning from a map each minute: "
+       "hindcasts "
+       "with the wind that blew. Then 5-minute forecasts, one begun each minute from 10 to 15 min; RMSE over "
+       "them against the true surface. Model and priors know nothing of the lattice but its defaults.");
   rows(table, outcomes_of(From::hindcasts, false), "The same, the wind to come unknown",
        "The mean wind of the last five minutes goes on: what it cannot know of gusts and turns is in the "
        "errors, "

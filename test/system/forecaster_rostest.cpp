@@ -159,8 +159,8 @@ TEST_F(ForecasterTest, MembersTellTheSpreadAndLeaveTheElevation) {
 
 TEST_F(ForecasterTest, LearningIsSaidSavedGoneOnWithAndFrozen) {
   const std::string path = folder_.path() + "/learned.yaml";
-  const std::vector<std::string> learning{"_members:=8", "_learning:=on", "_learned_file:=" + path,
-                                          "_learning_period:=30", "_max_gap:=31", "_period:=30"};
+  const std::vector<std::string> learning{"_members:=8",          "_learning:=on", "_learned_file:=" + path,
+                                          "_learning_period:=30", "_max_gap:=31",  "_period:=30"};
   Listener<aeolian_msgs::LearnedParameters> learned{nh_, "learned"};
   start("law", learning);
   ASSERT_TRUE(map_at(1000));

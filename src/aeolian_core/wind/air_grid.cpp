@@ -56,7 +56,8 @@ AirGrid::AirGrid(const WindRelief& relief, std::size_t max_boxes)
     const double tall = std::max((*high - *low) / relief_boxes, flattest * box);
     z_ = {*low - 1e-6 * tall};
     while (z_.back() < *high + tall) z_.push_back(z_.back() + tall);
-    const double above = z_.back() + std::max(reach * (*high - *low), aspect * std::max(g.length_x(), g.length_y()));
+    const double above =
+        z_.back() + std::max(reach * (*high - *low), aspect * std::max(g.length_x(), g.length_y()));
     for (double step = tall; z_.back() < above;) z_.push_back(z_.back() + (step *= height_growth));
     x_ = borders(g.origin_x(), box_x, nx, thin_x_, border);
     y_ = borders(g.origin_y(), box_y, ny, thin_y_, border);

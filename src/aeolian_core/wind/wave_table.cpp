@@ -25,7 +25,8 @@ WaveTable::WaveTable(const UpwindProfile& upwind, double least_wave_number, doub
     std::memcpy(&middle, &bits, sizeof middle);
     const double k = std::sqrt(static_cast<double>(middle));
     // A wave square to the wind is not shifted, and has nothing across.
-    row(knot * solved_every)[0] = {static_cast<float>(answer(ReliefWave(upwind, k, 0, 1)).along.real() / k), 0, 0, 0};
+    row(knot * solved_every)[0] = {static_cast<float>(answer(ReliefWave(upwind, k, 0, 1)).along.real() / k),
+                                   0, 0, 0};
     for (int column = 1; column < columns; ++column) {
       const double root = static_cast<double>(column) / (columns - 1);
       // Per unit of the sine, which ReliefWave takes as it is given.

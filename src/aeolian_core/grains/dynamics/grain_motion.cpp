@@ -1,7 +1,7 @@
 #include "aeolian_core/grains/dynamics/grain_motion.hpp"
 
-#include "aeolian_core/surface/lanes.hpp"
 #include "aeolian_core/surface/kernel.hpp"
+#include "aeolian_core/surface/lanes.hpp"
 
 namespace aeolian {
 namespace {

@@ -93,10 +93,11 @@ std::optional<SlideEvent<Dim>> SlideSeries<Dim>::next(const Watch& watch) {
   }
   event.snow = world.points();
   if (!event.still && on > 0.5 && world.fastest() < scene_.still)
-    throw Error(fmt::format(
-        "slide: the slab of event {} is stuck on the panel after {:.2g} s: friction {:g} on {:g} degrees, or the "
-        "pile in front, holds it",
-        event.number, world.time(), scene_.panel_friction, scene_.tilt * 180 / M_PI));
+    throw Error(
+        fmt::format("slide: the slab of event {} is stuck on the panel after {:.2g} s: friction {:g} on {:g} "
+                    "degrees, or the "
+                    "pile in front, holds it",
+                    event.number, world.time(), scene_.panel_friction, scene_.tilt * 180 / M_PI));
   event.duration = world.time();
   event.work = world.work();
   const auto kept = std::stable_partition(event.snow.begin(), event.snow.end(),
