@@ -106,9 +106,10 @@ class Drawing {
                           grid_.origin_y() + (static_cast<double>(lane / nx) + 0.5) * step);
       const auto id = static_cast<std::int32_t>(lane) + 1;
       std::vector<Vector2d> line = traced(seed, -1, id);
+      if (line.empty()) continue;
       std::reverse(line.begin(), line.end());
       const std::vector<Vector2d> downwind = traced(seed, 1, id);
-      line.insert(line.end(), downwind.begin(), downwind.end());
+      line.insert(line.end(), downwind.begin() + 1, downwind.end());
       if (static_cast<double>(line.size()) * stride * step < shortest * spacing_) continue;
       for (std::size_t i = 1; i < line.size(); ++i) add(lines, line[i - 1], line[i]);
     }
