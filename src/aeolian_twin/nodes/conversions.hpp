@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include <aeolian_msgs/AnemometerStatistics.h>
 #include <aeolian_msgs/Comparison.h>
+#include <aeolian_msgs/GustRecord.h>
 #include <aeolian_msgs/LearnedParameters.h>
 #include <aeolian_msgs/Profile.h>
 #include <aeolian_msgs/WindAhead.h>
+#include <aeolian_msgs/WindAtPoints.h>
+#include <aeolian_msgs/WindStatistics.h>
 #include <grid_map_msgs/GridMap.h>
 #include <opencv2/core.hpp>
 #include <sensor_msgs/CameraInfo.h>
@@ -24,6 +28,8 @@
 #include "aeolian_core/twin/parameter_learner.hpp"
 #include "aeolian_core/twin/wind_course.hpp"
 #include "aeolian_core/wind/wind_model.hpp"
+#include "aeolian_core/wind/wind_probe.hpp"
+#include "aeolian_twin/nodes/wind_window.hpp"
 
 /// Between messages and core types: the only place where the two meet. What a message gets wrong is an Error
 /// that names the field, its value and what is allowed.
@@ -51,13 +57,26 @@ PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message, const std::ui
 sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width = 0);
 
 /// The wind at the surface as a map: that of the cells, or a single cell over `extent` when it is the same
-/// everywhere. Layers friction_velocity [m/s], direction [rad], air_density [kg/m^3].
+/// everywhere. Layers friction_velocity [m/s], direction [rad], air_density [kg/m^3]; of one that varies also
+/// those of its cells and speed_up: what the friction velocity has gained over that of the surroundings.
 grid_map_msgs::GridMap to_message(const WindField& wind, const GridGeometry& extent,
                                   const std_msgs::Header& header);
 
-/// The cells' mean: friction velocity, direction of the mean vector, air density (1.225 when the layer is
-/// absent). `cells` holds the map unless it is a single cell. Throws Error when no cell is known.
+/// The mean of the cells outside of separated air, for what takes the wind to be the same everywhere
+/// (forecasts, comparisons): friction velocity, direction of the mean vector, air density (1.225 when the
+/// layer is absent). `cells` holds the map unless it is a single cell. Throws Error when no cell is known.
 WindField to_wind_field(const grid_map_msgs::GridMap& message);
+
+/// What a field is made of, without the anemometers.
+aeolian_msgs::WindStatistics to_message(const WindField& wind, const std_msgs::Header& header);
+/// What an anemometer says, but for who it is.
+aeolian_msgs::AnemometerStatistics to_message(const GustStatistics& statistics);
+/// The wind at points, one reading for each.
+aeolian_msgs::WindAtPoints to_message(const std::vector<ProbeReading>& readings,
+                                      const std::vector<Eigen::Vector3d>& points,
+                                      const std_msgs::Header& header);
+/// The record and its spectra.
+aeolian_msgs::GustRecord to_message(const Gusts& gusts);
 
 /// The wind to come over a bed of that roughness length [m]. Throws Error for lists of different lengths and
 /// for what log_law.hpp does not allow.

@@ -12,6 +12,8 @@ namespace {
 const std::string friction_velocity_layer = "friction_velocity";
 const std::string direction_layer = "direction";
 const std::string air_density_layer = "air_density";
+const std::string separated_layer = "separated";
+const std::string speed_up_layer = "speed_up";
 
 void require_finite_length(const std::string& field, double value) {
   if (!std::isfinite(value) || value <= 0)
@@ -74,6 +76,14 @@ HeightMap::Layer to_layer(const std::string& name, const std_msgs::Float32MultiA
     }
   }
   return values;
+}
+
+/// What each cell has gained; nothing in still air.
+HeightMap::Layer speed_up(const WindField& wind) {
+  HeightMap::Layer gain = wind.cells.layer(friction_velocity_layer);
+  const auto level = static_cast<float>(wind.friction_velocity);
+  for (float& value : gain) value = level > 0 ? value / level - 1 : value;
+  return gain;
 }
 
 double mean_of_known(const HeightMap::Layer& values) {
@@ -142,6 +152,8 @@ grid_map_msgs::GridMap to_message(const WindField& wind, const GridGeometry& ext
                                  extent.origin_y() + (extent.length_y() - cell) / 2, cell, 1, 1));
     map.add(friction_velocity_layer, static_cast<float>(wind.friction_velocity));
     map.add(direction_layer, static_cast<float>(wind.direction));
+  } else {
+    map.add(speed_up_layer, speed_up(wind));
   }
   map.add(air_density_layer, static_cast<float>(wind.air_density));
   grid_map_msgs::GridMap message = to_message(map, header);
@@ -153,22 +165,26 @@ WindField to_wind_field(const grid_map_msgs::GridMap& message) {
   HeightMap map = to_height_map(message);
   const HeightMap::Layer& speeds = map.layer(friction_velocity_layer);
   const HeightMap::Layer& directions = map.layer(direction_layer);
+  const HeightMap::Layer* separated = map.has(separated_layer) ? &map.layer(separated_layer) : nullptr;
   WindField wind;
   double east = 0;
   double north = 0;
   double sum = 0;
   std::size_t known = 0;
+  std::size_t attached = 0;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     if (!std::isfinite(speeds[i]) || !std::isfinite(directions[i])) continue;
+    ++known;
+    if (separated && (*separated)[i] > 0) continue;
     const double speed = static_cast<double>(speeds[i]);
     const double direction = static_cast<double>(directions[i]);
     east += speed * std::cos(direction);
     north += speed * std::sin(direction);
     sum += speed;
-    ++known;
+    ++attached;
   }
   if (known == 0) throw Error("wind field: no cell has a finite friction velocity and direction");
-  wind.friction_velocity = sum / static_cast<double>(known);
+  wind.friction_velocity = attached > 0 ? sum / static_cast<double>(attached) : 0;
   wind.direction = speeds.size() == 1 ? static_cast<double>(directions[0]) : std::atan2(north, east);
   if (map.has(air_density_layer)) wind.air_density = mean_of_known(map.layer(air_density_layer));
   if (speeds.size() > 1) wind.cells = std::move(map);

@@ -32,16 +32,17 @@ geometry_msgs::Point at(double x, double y) {
 
 }  // namespace
 
-std::string value_words(double value, const ValueRange& range) {
+std::string value_words(double value, const ValueRange& range, const std::string& unit) {
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
-  const bool small = largest < 0.5;
-  const double unit = small ? 1e-3 : 1;
-  const double span = (range.high - range.low) / unit;
+  const bool small = unit == "m" && largest < 0.5;
+  const double one = small ? 1e-3 : 1;
+  const double span = (range.high - range.low) / one;
   // A hundredth of the range at least.
   const int decimals = span > 0 ? std::clamp(2 - static_cast<int>(std::ceil(std::log10(span))), 0, 9) : 1;
   const double steps = std::pow(10, decimals);
-  const double rounded = std::round(value / unit * steps) / steps + 0.0;  // no -0
-  return fmt::format("{:.{}f} {}", rounded, rounded == 0 ? 0 : decimals, small ? "mm" : "m");
+  const double rounded = std::round(value / one * steps) / steps + 0.0;  // no -0
+  const std::string words = small ? "mm" : unit;
+  return fmt::format("{:.{}f}{}{}", rounded, rounded == 0 ? 0 : decimals, words.empty() ? "" : " ", words);
 }
 
 /// The height of a line of text [m].
@@ -55,7 +56,7 @@ std::vector<Marker> MapLegend::markers() const {
     const double value = look.range.low + share * (look.range.high - look.range.low);
     const double east = geometry.length_x() * (0.5 + bar_length * (share - 0.5));
     result[static_cast<std::size_t>(2 + i)] =
-        text("scale", i, value_words(value, look.range), east, -2.1 * line());
+        text("scale", i, value_words(value, look.range, unit), east, -2.1 * line());
   }
   return result;
 }

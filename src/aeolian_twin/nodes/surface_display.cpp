@@ -13,13 +13,14 @@
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_core/twin/forecast.hpp"
 #include "aeolian_core/wind/direction.hpp"
-#include "aeolian_twin/nodes/crest_publisher.hpp"
 #include "aeolian_twin/nodes/drawn_crests.hpp"
 #include "aeolian_twin/nodes/drawn_surface.hpp"
+#include "aeolian_twin/nodes/drawn_wind.hpp"
 #include "aeolian_twin/nodes/lead_time_words.hpp"
 #include "aeolian_twin/nodes/map_legend.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/wind_drawing.hpp"
 
 namespace aeolian {
 namespace {
@@ -27,11 +28,14 @@ namespace {
 const std::map<std::string, Palette> palettes = {
     {"sand", Palette::sand}, {"diverging", Palette::diverging}, {"viridis", Palette::viridis}};
 
+/// Crests are found up to 60 degrees off; another wind must not bring them near that.
+constexpr double notable_turn = degrees_to_radians(20);
+
 }  // namespace
 
-/// Any grid map as a coloured point cloud, a shaded mesh with title and colour bar, and the crests of its
-/// ripples, for a stock rviz. Only what has changed is drawn
-/// anew, and nothing that nobody looks at; one who starts to look gets the last picture.
+/// Any grid map as a coloured point cloud, a shaded mesh with title and colour bar, the crests of its ripples
+/// and the wind over it, for a stock rviz. Only what has changed is drawn anew, and nothing that nobody looks
+/// at; one who starts to look gets the last picture.
 class SurfaceDisplay : public Node {
  public:
   SurfaceDisplay() : Node(describe_surface_display()) {}
@@ -55,15 +59,15 @@ class SurfaceDisplay : public Node {
     look_.exaggeration = parameters().number("exaggeration");
     mesh_.emplace(parameters().number("max_mesh_cells"));
     title_ = parameters().text("title");
+    unit_ = parameters().text("unit");
 
     using Looker = ros::SingleSubscriberPublisher;
     cloud_publisher_ = nh().advertise<sensor_msgs::PointCloud2>(
         "cloud", 1, [this](const Looker& to) { show([&] { to.publish(draw_cloud()); }); });
     mesh_publisher_ = nh().advertise<visualization_msgs::MarkerArray>(
         "mesh", 1, [this](const Looker& to) { show([&] { to.publish(draw_mesh()); }); });
-    crests_ = std::make_unique<CrestPublisher>(nh(), degrees_to_radians(parameters().number("direction_deg")),
-                                               parameters().number("crest_period"),
-                                               [this](double direction) { return crests(direction); });
+    crests_ = std::make_unique<WindDrawing<visualization_msgs::Marker>>(nh(), crests());
+    wind_ = std::make_unique<WindDrawing<visualization_msgs::MarkerArray>>(nh(), wind());
     WantedMap wanted;
     wanted.layers = {heights_, values_, layer::lead_time};
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
@@ -92,6 +96,7 @@ class SurfaceDisplay : public Node {
     if (changed.empty()) return;
     show_to_lookers();
     crests_->note_change();
+    wind_->note_change();
   }
 
   void take_range(const std_msgs::Float64MultiArray::ConstPtr& message) {
@@ -158,7 +163,7 @@ class SurfaceDisplay : public Node {
   }
 
   MapLegend legend(const std::string& title, double lowest) const {
-    return {geometry_, look_, lowest, title, drawn_at_once()};
+    return {geometry_, look_, lowest, title, unit_, drawn_at_once()};
   }
 
   std_msgs::Header drawn_at_once() const {
@@ -167,10 +172,28 @@ class SurfaceDisplay : public Node {
     return header;
   }
 
-  std::optional<visualization_msgs::Marker> crests(double direction) {
-    std::optional<visualization_msgs::Marker> result;
-    show([&] { result = draw_crests(choose_look(), look_, direction, drawn_at_once()); });
-    return result;
+  WindDrawing<visualization_msgs::Marker>::What crests() {
+    WindField wind;
+    wind.direction = degrees_to_radians(parameters().number("direction_deg"));
+    const auto draw = [this](const WindField& now) {
+      std::optional<visualization_msgs::Marker> result;
+      show([&] { result = draw_crests(choose_look(), look_, now.direction, drawn_at_once()); });
+      return result;
+    };
+    const auto differs = [](const WindField& drawn, const WindField& now) {
+      return std::abs(wrap_angle(now.direction - drawn.direction)) > notable_turn;
+    };
+    return {"crests", parameters().number("crest_period"), wind, draw, differs};
+  }
+
+  WindDrawing<visualization_msgs::MarkerArray>::What wind() {
+    const auto draw = [this](const WindField& now) {
+      std::optional<visualization_msgs::MarkerArray> result;
+      show([&] { result = draw_wind(now, choose_look(), look_, drawn_at_once()); });
+      return result;
+    };
+    const auto differs = [](const WindField&, const WindField&) { return true; };
+    return {"wind_arrows", parameters().number("wind_period"), std::nullopt, draw, differs};
   }
 
   /// The layers to be drawn. A range that the map gives is chosen anew only when as many tiles have changed
@@ -220,6 +243,7 @@ class SurfaceDisplay : public Node {
   bool chooses_range_ = false;
   bool centred_ = false;
   std::string title_;
+  std::string unit_;
   SurfaceLook look_;
 
   const HeightMap* map_ = nullptr;  ///< the receiver's, once there is one
@@ -235,7 +259,8 @@ class SurfaceDisplay : public Node {
   ros::Subscriber range_subscriber_;
   ros::Publisher mesh_publisher_;
   visualization_msgs::MarkerArray unknown_;
-  std::unique_ptr<CrestPublisher> crests_;
+  std::unique_ptr<WindDrawing<visualization_msgs::Marker>> crests_;
+  std::unique_ptr<WindDrawing<visualization_msgs::MarkerArray>> wind_;
   std::unique_ptr<MapReceiver> receiver_;
 };
 
@@ -244,12 +269,14 @@ NodeDescription describe_surface_display() {
       "surface_display",
       "shows any grid map in a stock rviz",
       {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed",
-       "wind_field (grid_map_msgs/GridMap): while somebody looks at crests, which lie across it"},
+       "wind_field (grid_map_msgs/GridMap): while somebody looks at its arrows, or at crests, which lie across "
+       "it"},
       {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
        "range (std_msgs/Float64MultiArray, latched): the values of the first and last colour, where the map "
        "chooses them",
        "mesh (visualization_msgs/MarkerArray): shaded surface, title, colour bar",
-       "crests (visualization_msgs/Marker): lines along the crests of ripples"},
+       "crests (visualization_msgs/Marker): lines along the crests of ripples",
+       "wind_arrows (visualization_msgs/MarkerArray): arrows and streamlines of the wind at the ground"},
       {
           frame_parameter(),
           {"layer", layer::elevation, "", "drawn as height"},
@@ -273,7 +300,9 @@ NodeDescription describe_surface_display() {
            "drawn with its centre at the frame's origin, for maps with large coordinates"},
           {"max_mesh_cells", 60000.0, "", "a larger map is drawn with coarser cells", Limits::positive()},
           {"title", std::string(), "", "text above the mesh, which then has a colour bar; empty: neither"},
+          {"unit", std::string("m"), "", "of the colours, as the bar says it; of m also millimetres are told"},
           {"crest_period", 1.0, "s", "least time between drawings of the crests", Limits::not_negative()},
+          {"wind_period", 1.0, "s", "least time between drawings of the wind", Limits::not_negative()},
           {"direction_deg", 0.0, "degrees",
            "where the wind blows to, counter-clockwise from east, until it is known",
            Limits::between(-360, 360)},

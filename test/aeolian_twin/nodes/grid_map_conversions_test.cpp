@@ -220,6 +220,22 @@ TEST(WindFieldConversion, CellsAreAveragedAsVectors) {
   EXPECT_EQ(wind.cells.geometry().nx(), 3);
 }
 
+TEST(WindFieldConversion, SeparatedAirIsNoPartOfTheMean) {
+  WindField wind;
+  wind.friction_velocity = 0.4;
+  wind.cells = HeightMap(GridGeometry(0, 0, 1, 3, 1));
+  wind.cells.add("friction_velocity", HeightMap::Layer{0.4F, 0.5F, 0.0F});
+  wind.cells.add("direction", HeightMap::Layer{0.0F, 0.0F, 3.0F});
+  wind.cells.add("separated", HeightMap::Layer{0, 0, 1});
+  const grid_map_msgs::GridMap message = to_message(wind, GridGeometry(0, 0, 1, 1, 1), std_msgs::Header());
+  const WindField back = to_wind_field(message);
+  EXPECT_NEAR(back.friction_velocity, 0.45, 1e-7);
+  EXPECT_EQ(back.direction, 0);
+  const HeightMap cells = to_height_map(message);
+  EXPECT_NEAR(cells.layer("speed_up")[1], 0.25, 1e-6);
+  EXPECT_EQ(cells.layer("speed_up")[2], -1);
+}
+
 TEST(WindFieldConversion, NamesWhatIsMissing) {
   HeightMap map(GridGeometry(0, 0, 1, 1, 1));
   map.add("friction_velocity", 0.3F);

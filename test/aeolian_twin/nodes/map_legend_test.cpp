@@ -14,6 +14,7 @@ TEST(ValueWords, AreMillimetresUnlessTheRangeIsLarge) {
   EXPECT_EQ(value_words(0.12, {0, 0.12}), "120 mm");
   EXPECT_EQ(value_words(1.234, {0.5, 1.234}), "1.23 m");
   EXPECT_EQ(value_words(0.001, {0.001, 0.001}), "1.0 mm") << "flat ground";
+  EXPECT_EQ(value_words(0.31, {0.1, 0.31}, "m/s"), "0.31 m/s");
 }
 
 TEST(MapLegend, ItsBarHasTheColoursOfTheValuesWrittenBelow) {
@@ -22,7 +23,7 @@ TEST(MapLegend, ItsBarHasTheColoursOfTheValuesWrittenBelow) {
   look.palette = Palette::diverging;
   look.range = {-0.002, 0.002};
   look.offset = {2, 0, 0};
-  const std::vector<Marker> markers = MapLegend{grid, look, 0.5, "Difference", {}}.markers();
+  const std::vector<Marker> markers = MapLegend{grid, look, 0.5, "Difference", "m", {}}.markers();
   ASSERT_EQ(markers.size(), 5U);
   EXPECT_EQ(markers[0].text, "Difference");
   EXPECT_GT(markers[0].pose.position.y, 20.5) << "above the map";
@@ -43,7 +44,7 @@ TEST(MapLegend, ItsBarHasTheColoursOfTheValuesWrittenBelow) {
 TEST(MapLegend, OnlyTheTitleTakesTheBarAway) {
   const GridGeometry grid(0, 0, 0.01, 100, 50);
   const SurfaceLook look;
-  const MapLegend legend{grid, look, 0, "Uncertainty", {}};
+  const MapLegend legend{grid, look, 0, "Uncertainty", "m", {}};
   const std::vector<Marker> with_bar = legend.markers();
   const std::vector<Marker> without = legend.only_title();
   ASSERT_EQ(with_bar.size(), without.size());
