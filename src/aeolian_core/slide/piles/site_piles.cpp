@@ -31,7 +31,8 @@ class Piles : public SitePiles {
     SitePile result;
     result.guessed = ground.guessed;
     result.news = news(ground.map);
-    if (result.news == PileNews::seen || result.news == PileNews::unseen) lay_bare(ground.map);
+    if (result.news == PileNews::seen || result.news == PileNews::unseen)
+      lay_bare(ground.map, 1.5 * map.geometry().cell() + scene.cell);
     scene.ground = std::move(ground.map);
     check(scene, Dim);
     if (!series_) series_.emplace(scene);
@@ -43,6 +44,7 @@ class Piles : public SitePiles {
     const auto event = series_->next(watch ? shown : typename SlideSeries<Dim>::Watch());
     if (!event) return std::nullopt;
     pile_ = pile_map<Dim>(scene, event->snow, scene.cell);
+    bare_ = *scene.ground;
     result.number = event->number;
     result.size = event->pile;
     result.duration = event->duration;
@@ -85,24 +87,37 @@ class Piles : public SitePiles {
     return bare <= scene_.cell ? PileNews::unseen : PileNews::contradicted;
   }
 
-  /// Puts what was under the pile in its place.
-  void lay_bare(HeightMap& ground) const {
+  /// Puts the ground of the last event where there is snow within `reach` [m]: beside the pile the map's
+  /// cells mix it with the ground.
+  void lay_bare(HeightMap& ground, double reach) const {
     HeightMap::Layer& elevation = ground.layer(layer::elevation);
+    const HeightMap::Layer& before = bare_.layer(layer::elevation);
     const GridGeometry& grid = ground.geometry();
     for (std::size_t k = 0; k < grid.size(); ++k) {
       const CellIndex at = grid.cell_at(k);
-      const auto cell = pile_->geometry().find(grid.x(at.x), grid.y(at.y));
-      if (!cell) continue;
-      const std::size_t under = pile_->geometry().index(*cell);
-      if (depth(under) > 0) elevation[k] = pile_->layer(layer::ground)[under];
+      const double x = grid.x(at.x), y = grid.y(at.y);
+      if (bare_.geometry().find(x, y) && has_snow_near(x, y, reach))
+        elevation[k] = static_cast<float>(sample(bare_.geometry(), before, x, y));
     }
+  }
+
+  bool has_snow_near(double x, double y, double reach) const {
+    const GridGeometry& grid = pile_->geometry();
+    const double step = grid.cell();
+    const double across = Dim == 3 ? reach : 0;
+    for (double dy = -across; dy <= across; dy += step)
+      for (double dx = -reach; dx <= reach; dx += step)
+        if (const auto cell = grid.find(x + dx, y + dy))
+          if (depth(grid.index(*cell)) > 0) return true;
+    return false;
   }
 
   SlideScene scene_;
   SlideSite site_;
   double model_error_;
   std::optional<SlideSeries<Dim>> series_;
-  std::optional<HeightMap> pile_;  ///< in the slide's axes, on the ground as it was before
+  std::optional<HeightMap> pile_;  ///< in the slide's axes
+  HeightMap bare_;                 ///< the ground that it lies on, in the same axes
 };
 
 }  // namespace
