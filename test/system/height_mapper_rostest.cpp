@@ -304,6 +304,37 @@ TEST_F(HeightMapperTest, ReplacesMaskedCellsAndHoldsUpdates) {
   map_after(plane_cloud(ros::Time(1700004002)));
 }
 
+TEST_F(HeightMapperTest, TakesPatchesWithTheirUncertainty) {
+  map_after(plane_cloud(ros::Time(1700004500)));
+  ros::Publisher patches = nh_.advertise<grid_map_msgs::GridMap>("patches", 10);
+  ASSERT_TRUE(wait_until([&] { return patches.getNumSubscribers() > 0; }));
+  HeightMap patch(GridGeometry(0.1, 0.1, 0.01, 10, 5));
+  patch.add(layer::elevation)[0] = 0.5F;
+  std_msgs::Header header;
+  header.frame_id = "map";
+  patches.publish(to_message(patch, header));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "/patches: the patch has no layer 'variance'"));
+  patch.add(layer::variance)[0] = 0;
+  patches.publish(to_message(patch, header));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "variance of cell (0, 0) is 0, must be positive"));
+  patch.layer(layer::variance)[0] = 4e-4F;
+  header.frame_id = "odom";
+  patches.publish(to_message(patch, header));
+  EXPECT_TRUE(diagnostics_.warns("height_mapper", "the map's frame is 'odom', must be 'map'"));
+
+  maps_.messages.clear();
+  header.frame_id = "map";
+  patches.publish(to_message(patch, header));
+  ASSERT_TRUE(wait_until([&] { return !maps_.messages.empty(); }));
+  const HeightMap map = to_height_map(*maps_.messages.back());
+  const std::size_t there = map.geometry().index(10, 10), beside = map.geometry().index(11, 10);
+  EXPECT_NEAR(map.layer(layer::elevation)[there], 0.5, 1e-5);
+  EXPECT_NEAR(map.layer(layer::variance)[there], 4e-4, 1e-8);
+  EXPECT_LT(map.layer(layer::elevation)[beside], 0.1) << "cells that the patch does not know stay";
+  EXPECT_LT(map.layer(layer::variance)[beside], 1e-5);
+  EXPECT_TRUE(diagnostics_.is_well("height_mapper"));
+}
+
 TEST_F(HeightMapperTest, ATransformThatContradictsTheMapIsTold) {
   for (std::uint32_t i = 0; i < 3; ++i) map_after(plane_cloud(ros::Time(1700005000 + i)));
   geometry_msgs::TransformStamped moved = scanner_pose("moved", ros::Time::now());

@@ -71,7 +71,7 @@ TEST_F(SlideSnow, RefusesBadScenesInOneLine) {
   expect_refusal("events: 2", "evnts: 2", "bad.yaml: there is no key 'events'");
   expect_refusal(
       "height_m: 0.25", "height_m: 0.01",
-      "slide: the lower edge of the panel above the ground is -0.0607107, must be positive: it is four cells "
+      "slide: the lower side of the panel above the ground is -0.0607107, must be positive: it is four cells "
       "thick, and must not be in the ground");
   const Outcome missing = run("--config nothing.yaml --out results");
   EXPECT_EQ(missing.code, 1);

@@ -7,4 +7,5 @@
 
 #include "aeolian_core/slide/mpm/material_points.hpp"
 #include "aeolian_core/slide/piles/pile_measure.hpp"
+#include "aeolian_core/slide/piles/site_piles.hpp"
 #include "aeolian_core/slide/piles/slide_series.hpp"

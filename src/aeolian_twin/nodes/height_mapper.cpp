@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+#include <grid_map_msgs/GridMap.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
@@ -12,6 +14,7 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/autosave.hpp"
 #include "aeolian_twin/nodes/cloud_input.hpp"
+#include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/map_keeper.hpp"
 #include "aeolian_twin/nodes/map_publisher.hpp"
 #include "aeolian_twin/nodes/map_services.hpp"
@@ -55,6 +58,7 @@ class HeightMapper : public Node {
     XmlRpc::XmlRpcValue values;
     ros::param::get(name, values);
     listen(read_sensors(name, values, shared), tell);
+    patch_subscriber_ = nh().subscribe("patches", 10, &HeightMapper::take_patch, this);
   }
 
   void watch() override {
@@ -87,6 +91,16 @@ class HeightMapper : public Node {
     publisher_->note(keeper_->take(cloud, pose, measured, sensor));
     unsaved_ = true;
     if (keeper_->is_due(measured)) publisher_->publish();
+  }
+
+  void take_patch(const grid_map_msgs::GridMap::ConstPtr& message) {
+    try {
+      publisher_->note(live().patch(to_height_map(*message), message->info.header.frame_id));
+      good("patches", "in the map");
+      publish_replaced();
+    } catch (const Error& error) {
+      bad("patches", fmt::format("{}: {}", patch_subscriber_.getTopic(), error.what()));
+    }
   }
 
   void send(const Eigen::Isometry3d& bed) {
@@ -171,6 +185,7 @@ class HeightMapper : public Node {
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::vector<std::unique_ptr<Input>> inputs_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber patch_subscriber_;
   ros::WallTimer autosave_timer_;
 };
 
@@ -213,7 +228,8 @@ NodeDescription describe_height_mapper() {
   return {"height_mapper",
           "keeps a live height map from point clouds",
           {"points (sensor_msgs/PointCloud2), with tf from its frame to ~frame_id; of several sensors, those "
-           "that ~sensors names: {NAME: {topic: NAME/points, sensor_file: FILE, latency: 0, ...}}"},
+           "that ~sensors names: {NAME: {topic: NAME/points, sensor_file: FILE, latency: 0, ...}}",
+           "patches (grid_map_msgs/GridMap): elevation and variance of cells that a model says have changed"},
           {"height_map (grid_map_msgs/GridMap): elevation [m], variance [m^2], rate [m/s], "
            "rate_variance [m^2/s^2]; one who starts to listen gets the last",
            "height_map_updates (grid_map_msgs/GridMap), with ~incremental: rectangles of it that changed",

@@ -1,5 +1,7 @@
 #include "aeolian_twin/nodes/live_map.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "aeolian_core/measure/cloud_sample.hpp"
@@ -110,6 +112,21 @@ TileMask LiveMap::replace(const HeightMap& cells, const std::string& frame) {
     throw Error(fmt::format("the map has no layer '{}' to replace cells by", layer::elevation));
   const HeightMap known = nearest_cells(cells, map().geometry());
   return fusion_->replace(known, known.layer(known.has(mask_layer) ? mask_layer : layer::elevation));
+}
+
+TileMask LiveMap::patch(const HeightMap& cells, const std::string& frame) {
+  if (!cells.has(layer::variance))
+    throw Error(fmt::format("the patch has no layer '{}', must say how certain it is", layer::variance));
+  const HeightMap::Layer& variance = cells.layer(layer::variance);
+  const HeightMap::Layer& elevation = cells.layer(layer::elevation);
+  for (std::size_t k = 0; k < variance.size(); ++k)
+    if (std::isfinite(elevation[k]) && !(variance[k] > 0 && std::isfinite(variance[k])))
+      throw Error(fmt::format("the patch's variance of cell ({}, {}) is {}, must be positive",
+                              cells.geometry().cell_at(k).x, cells.geometry().cell_at(k).y, variance[k]));
+  HeightMap known(cells.geometry());
+  known.add(layer::elevation, elevation);
+  known.add(layer::variance, variance);
+  return replace(known, frame);
 }
 
 void LiveMap::clear() {

@@ -48,6 +48,10 @@ class LiveMap {
   /// layer: whose elevation is known), each by the nearest of its cells. Returns the tiles that have such
   /// cells. Throws Error for a map without elevation or in another frame.
   TileMask replace(const HeightMap& cells, const std::string& frame);
+  /// Puts what a model says of a change that has happened into the map: replaces cells as replace() does,
+  /// with the patch's variance, so that the next scan of a better sensor soon outweighs it. Throws Error,
+  /// too, for a patch without variance or with one that is not positive where its elevation is known.
+  TileMask patch(const HeightMap& cells, const std::string& frame);
   void clear();
 
  private:

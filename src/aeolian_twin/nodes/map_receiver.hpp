@@ -46,6 +46,9 @@ class MapReceiver {
 
   /// As resolved by the node handle.
   std::string topic() const { return whole_.getTopic(); }
+  /// Whether a map has been told, and the last one.
+  bool known() const { return held_.known(); }
+  const HeightMap& map() const { return held_.map(); }
 
  private:
   using Message = grid_map_msgs::GridMap;

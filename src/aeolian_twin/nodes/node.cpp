@@ -13,9 +13,9 @@ const std::string diagnostic_period = "diagnostic_period";  // of ROS's own diag
 }  // namespace
 
 std::vector<NodeDescription> all_nodes() {
-  return {describe_height_mapper(),  describe_shadow_profiler(), describe_wind_estimator(),
-          describe_forecaster(),     describe_comparator(),      describe_forecast_shelf(),
-          describe_surface_display()};
+  return {describe_height_mapper(),    describe_shadow_profiler(), describe_wind_estimator(),
+          describe_forecaster(),       describe_comparator(),      describe_forecast_shelf(),
+          describe_slide_forecaster(), describe_surface_display()};
 }
 
 std::string help_text(const NodeDescription& node) {

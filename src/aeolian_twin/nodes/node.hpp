@@ -32,6 +32,7 @@ NodeDescription describe_wind_estimator();
 NodeDescription describe_forecaster();
 NodeDescription describe_comparator();
 NodeDescription describe_forecast_shelf();
+NodeDescription describe_slide_forecaster();
 NodeDescription describe_surface_display();
 
 /// All of them.

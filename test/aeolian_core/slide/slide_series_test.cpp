@@ -114,7 +114,7 @@ TEST(SlideSeries, RefusesScenesThatAreNotPossible) {
   EXPECT_EQ(told([](SlideScene& s) { s.slab_thickness = 0; }),
             "slide: thickness of the slab is 0, must be positive");
   EXPECT_NE(
-      told([](SlideScene& s) { s.panel_height = 0.05; }).find("lower edge of the panel above the ground"),
+      told([](SlideScene& s) { s.panel_height = 0.05; }).find("lower side of the panel above the ground"),
       std::string::npos);
   EXPECT_NE(told([](SlideScene& s) { s.tilt = 2; }).find("slide: tilt is 114.592"), std::string::npos);
   EXPECT_NE(told([](SlideScene& s) { s.cell = 0.05; }).find("at most the thickness"), std::string::npos);

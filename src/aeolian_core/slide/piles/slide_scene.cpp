@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "aeolian_core/slide/mpm/snow_body.hpp"
 #include "aeolian_core/surface/require.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 constexpr double gap_cells = 0.25;       ///< between panel and slab, where contact begins
 constexpr double panel_least_cells = 4;  ///< thickness
-
-double panel_thickness(const SlideScene& scene) { return panel_least_cells * scene.cell; }
 
 double centre_height(const SlideScene& scene) {
   const double half_drop = 0.5 * scene.panel_length * std::sin(scene.tilt);
@@ -26,9 +25,31 @@ std::shared_ptr<const Shape<Dim>> ground_shape(const SlideScene& scene) {
   return std::make_shared<HalfSpace<Dim>>(Point<Dim>::Zero(), Point<Dim>::Unit(Dim - 1));
 }
 
+/// How far the panel's lower side is above the ground where it is nearest [m], cell by cell.
+template <int Dim>
+double clearance(const SlideScene& scene) {
+  const PanelFrame<Dim> frame = panel_frame<Dim>(scene);
+  const auto ground = ground_shape<Dim>(scene);
+  const double half_length = 0.5 * scene.panel_length;
+  const double half_width = Dim == 3 ? 0.5 * scene.panel_width : 0;
+  const auto parts = [&](double half) { return std::max(1., std::ceil(2 * half / scene.cell)); };
+  double least = std::numeric_limits<double>::infinity();
+  for (double i = 0; i <= parts(half_length); ++i)
+    for (double j = 0; j <= (Dim == 3 ? parts(half_width) : 0); ++j) {
+      Point<Dim> local = Point<Dim>::Constant(-panel_thickness(scene));
+      local[0] = half_length * (2 * i / parts(half_length) - 1);
+      if constexpr (Dim == 3) local[1] = half_width * (2 * j / parts(half_width) - 1);
+      const Nearness<Dim> near = ground->at(frame.centre + frame.axes * local);
+      least = std::min(least, near.distance / near.normal[Dim - 1]);
+    }
+  return least;
+}
+
 }  // namespace
 
 double SlideScene::lower_edge() const { return centre_height(*this) - 0.5 * panel_length * std::sin(tilt); }
+
+double panel_thickness(const SlideScene& scene) { return panel_least_cells * scene.cell; }
 
 PileRules SlideScene::rules() const {
   PileRules rules;
@@ -65,10 +86,8 @@ void check(const SlideScene& scene, int dimensions) {
     require(scene.panel_width >= scene.slab_width && scene.panel_width <= far, "width of the panel",
             scene.panel_width, "at least that of the slab");
   }
-  Point<2> lowest = panel_frame<2>(scene).centre;
-  lowest += panel_frame<2>(scene).axes * Point<2>(0.5 * scene.panel_length, -panel_thickness(scene));
-  const double clear = lowest.y() - ground_under<2>(scene, lowest);
-  require(clear > 0, "the lower edge of the panel above the ground", clear,
+  const double clear = dimensions == 3 ? clearance<3>(scene) : clearance<2>(scene);
+  require(clear > 0, "the lower side of the panel above the ground", clear,
           "positive: it is four cells thick, and must not be in the ground");
 }
 
@@ -101,11 +120,6 @@ std::vector<Obstacle<Dim>> obstacles_of(const SlideScene& scene) {
 }
 
 template <int Dim>
-double ground_under(const SlideScene& scene, const Point<Dim>& point) {
-  return scene.ground ? Terrain<Dim>(*scene.ground).height(point) : 0;
-}
-
-template <int Dim>
 std::vector<MaterialPoint<Dim>> slab_of(const SlideScene& scene, int event) {
   const PanelFrame<Dim> frame = panel_frame<Dim>(scene);
   SnowBox<Dim> box;
@@ -120,10 +134,9 @@ std::vector<MaterialPoint<Dim>> slab_of(const SlideScene& scene, int event) {
   return filled_box(box, scene.snow, scene.cell, scene.particles_per_cell, scene.jitter, seed);
 }
 
-#define AEOLIAN_FOR(Dim)                                                   \
-  template PanelFrame<Dim> panel_frame(const SlideScene&);                 \
-  template std::vector<Obstacle<Dim>> obstacles_of(const SlideScene&);     \
-  template double ground_under<Dim>(const SlideScene&, const Point<Dim>&); \
+#define AEOLIAN_FOR(Dim)                                               \
+  template PanelFrame<Dim> panel_frame(const SlideScene&);             \
+  template std::vector<Obstacle<Dim>> obstacles_of(const SlideScene&); \
   template std::vector<MaterialPoint<Dim>> slab_of(const SlideScene&, int);
 AEOLIAN_FOR(2)
 AEOLIAN_FOR(3)

@@ -59,13 +59,12 @@ struct PanelFrame {
 template <int Dim>
 PanelFrame<Dim> panel_frame(const SlideScene& scene);
 
-/// Panel and ground. The panel is two slabs thick, so that no snow goes through it.
+/// Of the panel [m]: so thick that no snow goes through it.
+double panel_thickness(const SlideScene& scene);
+
+/// Panel and ground.
 template <int Dim>
 std::vector<Obstacle<Dim>> obstacles_of(const SlideScene& scene);
-
-/// Height of the ground under a point [m].
-template <int Dim>
-double ground_under(const SlideScene& scene, const Point<Dim>& point);
 
 /// Fresh snow on the panel.
 template <int Dim>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <Eigen/LU>
@@ -65,6 +66,12 @@ bool on_panel(const SlideScene& scene, const Point<Dim>& place) {
 template <int Dim>
 SlideSeries<Dim>::SlideSeries(const SlideScene& scene) : scene_(scene) {
   check(scene, Dim);
+}
+
+template <int Dim>
+void SlideSeries<Dim>::go_on(const SlideScene& scene) {
+  check(scene, Dim);
+  scene_ = scene;
 }
 
 template <int Dim>
@@ -176,15 +183,20 @@ HeightMap pile_map(const SlideScene& scene, const std::vector<MaterialPoint<Dim>
       ground[geometry.index(x, y)] = static_cast<float>(-height_over(*floor, place));
     }
   HeightMap::Layer& top = map.add(layer::elevation, ground);
+  HeightMap::Layer bottom(top.size(), std::numeric_limits<float>::infinity());
   for (const auto& p : snow) {
     const auto at = geometry.find(p.place[0], Dim == 3 ? p.place[1] : 0);
     if (!at) continue;
-    float& highest = top[geometry.index(*at)];
+    const std::size_t k = geometry.index(*at);
     const double half_size = 0.5 * std::pow(p.volume, 1. / Dim);
-    highest = std::max(highest, static_cast<float>(p.place[Dim - 1] + half_size));
+    top[k] = std::max(top[k], static_cast<float>(p.place[Dim - 1] + half_size));
+    bottom[k] = std::min(bottom[k], static_cast<float>(p.place[Dim - 1] - half_size));
   }
-  // Snow hovers by up to a cell of the solver's grid over what it lies on, and a cell of the map holds a
-  // slope: two uniform distributions.
+  // The solver holds snow up to a cell of its grid above what it lies on; there is no such gap.
+  const auto cell_of_grid = static_cast<float>(scene.cell);
+  for (std::size_t k = 0; k < top.size(); ++k)
+    if (top[k] > ground[k]) top[k] -= std::clamp(bottom[k] - ground[k], 0.0F, cell_of_grid);
+  // What is left of that, and the slope that a cell of the map holds: two uniform distributions.
   const double spread = (scene.cell * scene.cell + cell * cell) / 12;
   map.add(layer::variance, static_cast<float>(spread));
   return map;

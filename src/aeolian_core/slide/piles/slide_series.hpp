@@ -43,7 +43,14 @@ class SlideSeries {
   /// The next event; nothing when the watch has ended it. Throws Error when the slab does not slide.
   std::optional<SlideEvent<Dim>> next(const Watch& watch = {});
 
+  /// Goes on with another scene: what was changed holds from the next event on, the pile stays. Throws Error
+  /// for one that is not possible; the old one then stays.
+  void go_on(const SlideScene& scene);
+  /// The pile is gone: taken away, or part of the scene's ground.
+  void drop_pile() { pile_.clear(); }
+
   const SlideScene& scene() const { return scene_; }
+  const std::vector<MaterialPoint<Dim>>& pile() const { return pile_; }
 
  private:
   std::vector<MaterialPoint<Dim>> carried_over(const std::vector<MaterialPoint<Dim>>& snow) const;
