@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -15,7 +17,6 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
-constexpr int stopped_code = 130;  // as a shell has it for a program that Ctrl-C has ended
 
 Range range_of(YamlSection& root, const std::string& key, double least, double most) {
   const std::vector<double> ends = root.numbers(key);
@@ -28,7 +29,27 @@ std::string settings_of(const PileTableConfig& config, const std::string& file, 
   return fmt::format("{}\nsnow: {}\nseed: {}\n", YAML::Dump(YAML::LoadFile(file)), config.base.name, seed);
 }
 
+constexpr int least_runs = 10;          ///< as many as folds
+constexpr std::size_t least_rows = 19;  ///< for an interval that holds in nine of ten
+
 }  // namespace
+
+SlideSurrogate best_surrogate(const PileTable& table, std::uint64_t seed) {
+  const TrainingRows rows = rows_of(table, [](const PileRecord& r) { return r.shape(); });
+  SlideSurrogate::Settings settings;
+  settings.seed = seed;
+  const auto folds = grouped_folds(rows.runs, settings.folds, seed);
+  double least = std::numeric_limits<double>::infinity();
+  for (const SvrKernel kernel : {SvrKernel::linear, SvrKernel::rbf}) {
+    const auto predicted = out_of_fold(rows, folds, best_settings(rows, folds, kernel, settings.grid));
+    double error = 0;
+    for (std::size_t k = 0; k < predicted.size(); ++k)
+      error += std::abs(std::exp(predicted[k]) - std::exp(rows.targets[k]));
+    if (error < least) settings.kernel = kernel;
+    least = std::min(least, error);
+  }
+  return SlideSurrogate::train(table, settings);
+}
 
 PileTableConfig read_pile_table_config(const std::string& file) {
   YamlSection root = YamlSection::load(file);
@@ -88,13 +109,17 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
   }
   if (table.empty()) throw Error(file + ": no slab has left its panel, there is nothing to tabulate");
   const std::string name = options.out + "/" + std::filesystem::path(file).stem().string();
-  write_pile_table(table, name + ".csv",
-                   fmt::format("slide_snow of aeolian_twin " AEOLIAN_VERSION
-                               ": {}; seed {}; two dimensions, {:g} cells in the thickness, panel friction {:g}",
-                               options.command, options.seed, config.cells_per_thickness,
-                               config.base.scene.panel_friction));
-  journal.finish();
+  const std::string comment =
+      fmt::format("slide_snow of aeolian_twin " AEOLIAN_VERSION
+                  ": {}; seed {}; two dimensions, {:g} cells in the thickness, panel friction {:g}",
+                  options.command, options.seed, config.cells_per_thickness, config.base.scene.panel_friction);
+  write_pile_table(table, name + ".csv", comment);
   fmt::print("{} piles of {} panels -> {}.csv\n", table.size(), jobs.size(), name);
+  if (static_cast<int>(jobs.size()) < least_runs || table.size() < least_rows)
+    fmt::print("too few to learn from, {} panels and {} piles are the least\n", least_runs, least_rows);
+  else
+    best_surrogate(table, options.seed).write(name + "_surrogate.yaml", comment);
+  journal.finish();
   return 0;
 }
 

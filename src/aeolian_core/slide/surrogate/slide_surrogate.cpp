@@ -96,8 +96,8 @@ std::string SlideSurrogate::why_outside(const PileQuery& query) const {
     const double slack = 1e-6 * (high[d] - low[d]);
     if (at[d] >= low[d] - slack && at[d] <= high[d] + slack) continue;
     const Axis& a = axes[d];
-    return fmt::format("{} is {:.4g}{}, the table has {:.4g} to {:.4g}", a.name, a.shown(at[d]), a.unit,
-                       a.shown(low[d]), a.shown(high[d]));
+    return fmt::format("{} is {:.4g}{}, the table has {:.4g} to {:.4g}{}", a.name, a.shown(at[d]), a.unit,
+                       a.shown(low[d]), a.shown(high[d]), a.unit);
   }
   return "no mean of the table's panels is like this one";
 }
