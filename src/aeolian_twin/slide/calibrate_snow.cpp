@@ -42,10 +42,8 @@ std::vector<double> values_of(YamlSection& root, const std::string& key, double 
 CalibrationConfig read_calibration(const std::string& file) {
   YamlSection root = YamlSection::load(file);
   CalibrationConfig config;
-  config.base =
-      read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
-  config.base.scene.cell =
-      config.base.scene.slab_thickness / root.number("cells_per_thickness", 1, 100);
+  config.base = read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
+  config.base.scene.cell = config.base.scene.slab_thickness / root.number("cells_per_thickness", 1, 100);
   config.dimensions = root.integer("dimensions", 2, 3);
   config.grid.friction = values_of(root, "m", 1, 1e-3, 10);
   config.grid.consolidation = values_of(root, "p0_kpa", 1e3, 1e-3, 1e6);
@@ -95,10 +93,11 @@ std::optional<std::vector<PileErrors>> errors_of(const std::vector<LabPile>& lab
 
 void write_sets(const SnowCalibration& result, const std::string& file, const std::string& comment) {
   Table table;
-  table.names = {"m", "p0_kpa", "beta", "panel_friction", "rmse_height_m", "rmse_length_m", "score", "refined"};
+  table.names = {"m",     "p0_kpa", "beta", "panel_friction", "rmse_height_m", "rmse_length_m",
+                 "score", "refined"};
   table.columns.resize(table.names.size());
   const auto put = [&](const ScoredSet& s, double refined) {
-    const double row[] = {s.set.friction,    s.set.consolidation / 1e3, s.set.cohesion, s.set.panel_friction,
+    const double row[] = {s.set.friction,  s.set.consolidation / 1e3, s.set.cohesion, s.set.panel_friction,
                           s.errors.height, s.errors.length,           s.score,        refined};
     for (std::size_t k = 0; k < table.columns.size(); ++k) table.columns[k].push_back(row[k]);
   };
@@ -141,20 +140,21 @@ int calibrate_snow(const std::string& file, const std::string& lab_file, const S
   const std::size_t all = sets_of(config.grid).size();
   const auto result = calibrate(config.grid, config.refinements, [&](const std::vector<SnowSet>& sets) {
     const auto jobs = jobs_of(config, lab, sets, options.seed);
-    const auto outcomes =
-        run_jobs(jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t of) {
-                          const double share = static_cast<double>(done) / static_cast<double>(of);
-                          const auto left = static_cast<double>(all) + config.refinements;
-                          bar.at((static_cast<double>(tried) + share * static_cast<double>(sets.size())) / left,
-                                 "sets of snow");
-                        }});
+    const auto outcomes = run_jobs(
+        jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t of) {
+                 const double share = static_cast<double>(done) / static_cast<double>(of);
+                 const auto left = static_cast<double>(all) + config.refinements;
+                 bar.at((static_cast<double>(tried) + share * static_cast<double>(sets.size())) / left,
+                        "sets of snow");
+               }});
     tried += sets.size();
     return errors_of(lab, sets.size(), jobs, outcomes);
   });
   bar.clear();
   if (!result) {
     if (ranks.rank() == 0)
-      fmt::print(stderr, "slide_snow: stopped; {} slides are done; the same command goes on\n", journal.count());
+      fmt::print(stderr, "slide_snow: stopped; {} slides are done; the same command goes on\n",
+                 journal.count());
     return stopped_code;
   }
   if (ranks.rank() > 0) return 0;

@@ -54,8 +54,7 @@ SlideSurrogate best_surrogate(const PileTable& table, std::uint64_t seed) {
 PileTableConfig read_pile_table_config(const std::string& file) {
   YamlSection root = YamlSection::load(file);
   PileTableConfig config;
-  config.base =
-      read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
+  config.base = read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
   config.design.panel_length = range_of(root, "panel_length_m", 1e-3, 1e4);
   config.design.panel_height = range_of(root, "panel_height_m", 1e-3, 1e4);
   const Range tilt = range_of(root, "tilt_deg", 1, 89);
@@ -82,10 +81,10 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
   make_directory(options.out);
   SlideJournal journal(options.out, settings_of(config, file, options.seed), options.fresh, ranks);
   ProgressBar bar;
-  const auto outcomes = run_jobs(
-      jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t all) {
-               bar.at(static_cast<double>(done) / static_cast<double>(all), "panels");
-             }});
+  const auto outcomes =
+      run_jobs(jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t all) {
+                        bar.at(static_cast<double>(done) / static_cast<double>(all), "panels");
+                      }});
   bar.clear();
   if (ranks.rank() > 0) return options.stop ? stopped_code : 0;
   PileTable table;
@@ -96,8 +95,13 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
     if (!outcomes[run]->ended.empty()) fmt::print("panel {}: {}\n", run, outcomes[run]->ended);
     for (std::size_t k = 0; k < outcomes[run]->piles.size(); ++k) {
       const PileSize& pile = outcomes[run]->piles[k];
-      PileRecord record{static_cast<int>(run), panels[run], jobs[run].scene.cell, pile.height, pile.length,
-                        pile.head, pile.tail};
+      PileRecord record{static_cast<int>(run),
+                        panels[run],
+                        jobs[run].scene.cell,
+                        pile.height,
+                        pile.length,
+                        pile.head,
+                        pile.tail};
       record.query.event = static_cast<int>(k) + 1;
       table.push_back(record);
     }
@@ -109,16 +113,19 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
   }
   if (table.empty()) throw Error(file + ": no slab has left its panel, there is nothing to tabulate");
   const std::string name = options.out + "/" + std::filesystem::path(file).stem().string();
-  const std::string comment =
-      fmt::format("slide_snow of aeolian_twin " AEOLIAN_VERSION
-                  ": {}; seed {}; two dimensions, {:g} cells in the thickness, panel friction {:g}",
-                  options.command, options.seed, config.cells_per_thickness, config.base.scene.panel_friction);
+  const std::string comment = fmt::format(
+      "slide_snow of aeolian_twin " AEOLIAN_VERSION
+      ": {}; seed {}; two dimensions, {:g} cells in the thickness, panel friction {:g}",
+      options.command, options.seed, config.cells_per_thickness, config.base.scene.panel_friction);
   write_pile_table(table, name + ".csv", comment);
   fmt::print("{} piles of {} panels -> {}.csv\n", table.size(), jobs.size(), name);
   if (static_cast<int>(jobs.size()) < least_runs || table.size() < least_rows)
     fmt::print("too few to learn from, {} panels and {} piles are the least\n", least_runs, least_rows);
-  else
-    best_surrogate(table, options.seed).write(name + "_surrogate.yaml", comment);
+  else {
+    const SlideSurrogate surrogate = best_surrogate(table, options.seed);
+    surrogate.write(name + "_surrogate.yaml", comment);
+    plot_predicted(table, surrogate, options.seed, name + "_predicted.svg");
+  }
   journal.finish();
   return 0;
 }

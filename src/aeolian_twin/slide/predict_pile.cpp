@@ -50,7 +50,8 @@ std::string shipped_slide_folder() {
   return package + "/config/slide";
 }
 
-int predict_pile(const std::string& file, const PileQuery& query, int threads, const std::atomic<bool>& stop) {
+int predict_pile(const std::string& file, const PileQuery& query, int threads,
+                 const std::atomic<bool>& stop) {
   const PileTableConfig config = read_pile_table_config(file);
   SlideScene scene = scene_for(query, config.base.scene, config.cells_per_thickness);
   scene.threads = threads;
@@ -63,8 +64,9 @@ int predict_pile(const std::string& file, const PileQuery& query, int threads, c
                std::filesystem::path(file).stem().string() + ".csv", 100 * surrogate.coverage());
     return 0;
   }
-  fmt::print("outside the surrogate: {}; simulated instead (MPM, two dimensions, {:g} cells in the thickness)\n",
-             surrogate.why_outside(query), config.cells_per_thickness);
+  fmt::print(
+      "outside the surrogate: {}; simulated instead (MPM, two dimensions, {:g} cells in the thickness)\n",
+      surrogate.why_outside(query), config.cells_per_thickness);
   std::fflush(stdout);
   const auto pile = simulated(scene, query.event, stop);
   if (!pile) {

@@ -14,8 +14,7 @@ namespace {
 constexpr double usual_duration = 1.2;  ///< of an event [s], for the progress bar
 
 template <int Dim>
-std::optional<KeptEvent<Dim>> run_event(SlideSeries<Dim>& series, int all,
-                                         const std::atomic<bool>& stop) {
+std::optional<KeptEvent<Dim>> run_event(SlideSeries<Dim>& series, int all, const std::atomic<bool>& stop) {
   KeptEvent<Dim> kept;
   double fastest = 0;
   ProgressBar bar;

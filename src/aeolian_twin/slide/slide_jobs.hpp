@@ -27,7 +27,8 @@ struct SlideOutcome {
 };
 
 /// Outcomes of jobs as they are done, in a file beside the results until all have been written, so that the
-/// same command goes on from there, whatever has ended it. Jobs are told apart by the numbers of their scenes.
+/// same command goes on from there, whatever has ended it. Jobs are told apart by the numbers of their
+/// scenes.
 class SlideJournal {
  public:
   /// Reads what the processes of a study have left in FOLDER/unfinished*.csv, or begins anew when `fresh`.
@@ -62,9 +63,9 @@ struct SlideWork {
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-/// Runs the jobs that the journal does not hold: each process of `ranks` its share, each thread one at a time.
-/// Outcomes are those of the jobs, in every process; nothing for those that were stopped. They do not depend
-/// on threads and processes.
+/// Runs the jobs that the journal does not hold: each process of `ranks` its share, each thread one at a
+/// time. Outcomes are those of the jobs, in every process; nothing for those that were stopped. They do not
+/// depend on threads and processes.
 std::vector<std::optional<SlideOutcome>> run_jobs(const std::vector<SlideJob>& jobs, const SlideWork& work);
 
 }  // namespace aeolian

@@ -123,7 +123,8 @@ SlideJournal::SlideJournal(const std::string& folder, const std::string& setting
       const std::string whole = text.substr(0, text.rfind('\n') + 1);
       if (whole.empty()) continue;
       if (whole.compare(0, head.size(), head) != 0)
-        throw Error(path + ": is of a study with other settings; give another --out, or --fresh to begin anew");
+        throw Error(path +
+                    ": is of a study with other settings; give another --out, or --fresh to begin anew");
       take(whole.substr(head.size()), path);
       if (path == path_) own = whole;
     }

@@ -39,8 +39,8 @@ int run_slides(const SlideConfig& config, int dimensions, const std::string& com
 /// stopped; the same command then goes on. Under mpirun every process takes its share and the first writes.
 /// @{
 
-/// Simulates the piles of a table: NAME.csv, and the surrogate trained on it, NAME_surrogate.yaml, where NAME
-/// is that of the config.
+/// Simulates the piles of a table: NAME.csv, the surrogate trained on it, NAME_surrogate.yaml, and what it
+/// predicts of panels that it was not taught, NAME_predicted.svg; NAME is that of the config.
 int make_pile_table(const std::string& config, const StudyOptions& options);
 
 /// Calibrates the snow on the laboratory's piles (columns tilt_deg, event, height_m, length_m) as the config
@@ -54,6 +54,10 @@ int study_sensitivity(const std::string& config, const StudyOptions& options);
 
 /// Trains both kernels on a table and keeps the one that is better in shape H/L over folds of whole runs.
 SlideSurrogate best_surrogate(const PileTable& table, std::uint64_t seed);
+
+/// Draws what is predicted over what was simulated, each panel by what the others have taught.
+void plot_predicted(const PileTable& table, const SlideSurrogate& surrogate, std::uint64_t seed,
+                    const std::string& file);
 
 /// Where `rosrun` finds what the package ships, config/slide; throws Error when there is no such package.
 std::string shipped_slide_folder();

@@ -47,8 +47,7 @@ struct IndexRow {
 SensitivityConfig read_sensitivity(const std::string& file) {
   YamlSection root = YamlSection::load(file);
   SensitivityConfig config;
-  config.base =
-      read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
+  config.base = read_slide_config((std::filesystem::path(file).parent_path() / root.text("scene")).string());
   SlideScene& scene = config.base.scene;
   scene.panel_height = root.positive("panel_height_m", 1e4);
   config.dimensions = root.integer("dimensions", 2, 3);
@@ -165,10 +164,10 @@ int study_sensitivity(const std::string& file, const StudyOptions& options) {
   SlideJournal journal(options.out, fmt::format("sensitivity of {}, seed {}", config.base.name, options.seed),
                        options.fresh, ranks);
   ProgressBar bar;
-  const auto outcomes = run_jobs(
-      jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t all) {
-               bar.at(static_cast<double>(done) / static_cast<double>(all), "slides");
-             }});
+  const auto outcomes =
+      run_jobs(jobs, {journal, ranks, options.threads, options.stop, [&](std::size_t done, std::size_t all) {
+                        bar.at(static_cast<double>(done) / static_cast<double>(all), "slides");
+                      }});
   bar.clear();
   for (const auto& outcome : outcomes)
     if (!outcome) {
@@ -179,9 +178,10 @@ int study_sensitivity(const std::string& file, const StudyOptions& options) {
     }
   if (ranks.rank() > 0) return 0;
   const std::vector<IndexRow> rows = indices_of(config, outcomes);
-  std::string text = "# slide_snow of aeolian_twin " AEOLIAN_VERSION ": " + options.command +
-                     fmt::format("; seed {}\nparameter,event,s_height,s_height_error,s_length,s_length_error\n",
-                                 options.seed);
+  std::string text =
+      "# slide_snow of aeolian_twin " AEOLIAN_VERSION ": " + options.command +
+      fmt::format("; seed {}\nparameter,event,s_height,s_height_error,s_length,s_length_error\n",
+                  options.seed);
   for (const IndexRow& row : rows) {
     text += fmt::format("{},{},{},{},{},{}\n", row.name, row.event, row.height.mean, row.height.error,
                         row.length.mean, row.length.error);

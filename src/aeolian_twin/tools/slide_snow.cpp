@@ -81,7 +81,8 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
   auto* predict = app.add_flag("--predict", flags.predict, "the pile below a panel, at once");
-  auto* table = app.add_option("--make-table", flags.new_table, "YAML file of the panels to simulate, and learn from");
+  auto* table =
+      app.add_option("--make-table", flags.new_table, "YAML file of the panels to simulate, and learn from");
   auto* lab = app.add_option("--calibrate", flags.lab, "piles of the laboratory (CSV) to fit the snow to");
   auto* sensitivity =
       app.add_flag("--sensitivity", flags.sensitivity, "of piles to the numbers of the snow, one at a time");
@@ -105,8 +106,8 @@ int run(int argc, char** argv) {
   }
   if (flags.new_table.empty()) require_flag(flags.config, "--config");
   require_flag(flags.out, "--out");
-  const StudyOptions options{flags.out, flags.seed, flags.threads, flags.fresh,
-                             typed_command("slide_snow", argc, argv), stop};
+  const StudyOptions options{
+      flags.out, flags.seed, flags.threads, flags.fresh, typed_command("slide_snow", argc, argv), stop};
   if (!flags.new_table.empty()) return make_pile_table(flags.new_table, options);
   if (!flags.lab.empty()) return calibrate_snow(flags.config, flags.lab, options);
   if (flags.sensitivity) return study_sensitivity(flags.config, options);

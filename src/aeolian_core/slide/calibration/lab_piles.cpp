@@ -24,7 +24,8 @@ std::vector<SnowSet> sets_of(const SnowGrid& grid) {
   for (const double friction : grid.friction)
     for (const double consolidation : grid.consolidation)
       for (const double cohesion : grid.cohesion)
-        for (const double panel : grid.panel_friction) sets.push_back({friction, consolidation, cohesion, panel});
+        for (const double panel : grid.panel_friction)
+          sets.push_back({friction, consolidation, cohesion, panel});
   if (sets.empty()) throw Error("calibration: a list of values is empty, must have at least one");
   return sets;
 }
@@ -52,7 +53,8 @@ std::vector<LabPile> read_lab_piles(const std::string& file) {
     const double tilt = value(0, 1, 89, "from 1 to 89");
     const int event = static_cast<int>(value(1, 1, 1000, "a whole number from 1 to 1000"));
     if (!seen.insert({tilt, event}).second)
-      throw Error(fmt::format("{}: row {}: event {} at {:g} degrees is there twice", file, row + 1, event, tilt));
+      throw Error(
+          fmt::format("{}: row {}: event {} at {:g} degrees is there twice", file, row + 1, event, tilt));
     piles.push_back({tilt * M_PI / 180, event, value(2, 1e-6, 1e4, "above 0 and at most 1e4"),
                      value(3, 1e-6, 1e4, "above 0 and at most 1e4")});
   }

@@ -18,7 +18,8 @@ ErrorScale::ErrorScale(const std::vector<PileErrors>& sets) {
 }
 
 double ErrorScale::score(const PileErrors& errors) const {
-  return 0.5 * ((errors.height - low_.height) / range_.height + (errors.length - low_.length) / range_.length);
+  return 0.5 *
+         ((errors.height - low_.height) / range_.height + (errors.length - low_.length) / range_.length);
 }
 
 std::vector<double> rescaled_scores(const std::vector<PileErrors>& sets) {

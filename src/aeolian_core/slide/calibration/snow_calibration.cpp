@@ -65,11 +65,9 @@ std::optional<std::vector<ScoredSet>> refine(const SnowGrid& grid, int refinemen
   optimiser.set_upper_bounds(1.);
   optimiser.set_initial_step(first_step);
   optimiser.set_maxeval(refinements);
-  optimiser.set_min_objective(
-      [](const std::vector<double>& x, std::vector<double>&, void* data) {
-        return (*static_cast<Search*>(data))(x);
-      },
-      &search);
+  optimiser.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
+                                 void* data) { return (*static_cast<Search*>(data))(x); },
+                              &search);
   double score = 0;
   try {
     optimiser.optimize(shares, score);

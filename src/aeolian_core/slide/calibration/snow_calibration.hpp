@@ -33,7 +33,7 @@ std::vector<SnowSet> sets_of(const SnowGrid& grid);
 
 /// A pile in the laboratory.
 struct LabPile {
-  double tilt = 0;    ///< of the panel [rad]
+  double tilt = 0;  ///< of the panel [rad]
   int event = 1;
   double height = 0;  ///< [m]
   double length = 0;  ///< [m]
@@ -62,8 +62,8 @@ struct SnowCalibration {
 using MeasureSets = std::function<std::optional<std::vector<PileErrors>>(const std::vector<SnowSet>&)>;
 
 /// Scores every set of the grid (thesis, section 3.4), then goes on from the best between the ends of the
-/// grid, without derivatives, for `refinements` sets (NLopt's Sbplx, after Rowan 1990: it bears noise). Nothing
-/// when it was stopped. Throws Error when no two sets differ.
+/// grid, without derivatives, for `refinements` sets (NLopt's Sbplx, after Rowan 1990: it bears noise).
+/// Nothing when it was stopped. Throws Error when no two sets differ.
 std::optional<SnowCalibration> calibrate(const SnowGrid& grid, int refinements, const MeasureSets& measure);
 
 /// Index of sensitivity (Frischholz eq. 3.3.1): the relative change of a result over that of a number.

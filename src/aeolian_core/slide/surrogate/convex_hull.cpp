@@ -76,8 +76,7 @@ ConvexHull::ConvexHull(const std::vector<PileFeatures>& points) {
   unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
   const auto put = [&](const std::vector<PileFeatures>& set) {
     columns_.resize(dimensions + 1, static_cast<Eigen::Index>(set.size()));
-    for (std::size_t k = 0; k < set.size(); ++k)
-      columns_.col(static_cast<Eigen::Index>(k)) = scaled(set[k]);
+    for (std::size_t k = 0; k < set.size(); ++k) columns_.col(static_cast<Eigen::Index>(k)) = scaled(set[k]);
   };
   corners_ = unique;
   for (const PileFeatures& point : unique) {

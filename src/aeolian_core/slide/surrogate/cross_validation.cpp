@@ -20,8 +20,7 @@ std::vector<int> shuffled_folds(std::size_t count, int folds, std::uint64_t seed
   require(folds >= 2 && static_cast<std::size_t>(folds) <= count, "number of folds", folds,
           "from 2 to the number of runs");
   std::vector<int> result(count);
-  for (std::size_t k = 0; k < count; ++k)
-    result[k] = static_cast<int>(k % static_cast<std::size_t>(folds));
+  for (std::size_t k = 0; k < count; ++k) result[k] = static_cast<int>(k % static_cast<std::size_t>(folds));
   RandomStream random(seed, 0);
   for (std::size_t k = count; k > 1; --k)
     std::swap(result[k - 1], result[static_cast<std::size_t>(random.uniform() * static_cast<double>(k))]);
@@ -82,10 +81,12 @@ std::vector<double> out_of_fold(const TrainingRows& rows, const std::vector<int>
 SvrSettings best_settings(const TrainingRows& rows, const std::vector<int>& folds, SvrKernel kernel,
                           const SvrGrid& grid) {
   std::vector<SvrSettings> all;
-  const std::vector<double> gammas = kernel == SvrKernel::linear ? std::vector<double>{1} : grid.gamma;
+  const bool linear = kernel == SvrKernel::linear;
+  const std::vector<double> gammas = linear ? std::vector<double>{1} : grid.gamma;
   for (const double tolerance : grid.tolerance)
     for (const double gamma : gammas)
-      for (const double cost : grid.cost) all.push_back({kernel, cost, tolerance, gamma});
+      for (const double cost : linear ? grid.linear_cost : grid.rbf_cost)
+        all.push_back({kernel, cost, tolerance, gamma});
   std::vector<double> errors(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     errors[k] = mean_absolute_error(rows, out_of_fold(rows, folds, all[k]));

@@ -28,9 +28,11 @@ std::vector<double> out_of_fold(const TrainingRows& rows, const std::vector<int>
 
 /// Settings to search, every combination.
 struct SvrGrid {
-  std::vector<double> cost{0.1, 1, 10, 100};
   std::vector<double> tolerance{0.01, 0.1, 0.3};
-  std::vector<double> gamma{0.001, 0.01, 0.1, 1};  ///< only for the RBF
+  std::vector<double> linear_cost{0.01, 0.1,
+                                  1};  ///< a plane gains nothing from dearer errors, but takes long
+  std::vector<double> rbf_cost{0.1, 1, 10, 100};
+  std::vector<double> gamma{0.001, 0.01, 0.1, 1};  ///< of the RBF
 };
 
 /// The settings with the smallest mean absolute error out of fold; the first of equals. The result does not
@@ -38,8 +40,8 @@ struct SvrGrid {
 SvrSettings best_settings(const TrainingRows& rows, const std::vector<int>& folds, SvrKernel kernel,
                           const SvrGrid& grid = {});
 
-/// Nested: what each row is predicted to be when settings, too, are searched without its fold (5 folds of whole
-/// runs within the others). This is the honest one.
+/// Nested: what each row is predicted to be when settings, too, are searched without its fold (5 folds of
+/// whole runs within the others). This is the honest one.
 std::vector<double> nested_out_of_fold(const TrainingRows& rows, const std::vector<int>& folds,
                                        SvrKernel kernel, std::uint64_t seed, const SvrGrid& grid = {});
 

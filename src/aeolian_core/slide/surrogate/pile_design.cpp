@@ -34,11 +34,10 @@ std::vector<PileQuery> panels_of(const PileDesign& design) {
     double PileQuery::*number;
     const char* name;
   };
-  const std::array<Dimension, 4> all{
-      Dimension{design.panel_length, &PileQuery::panel_length, "panel length"},
-      Dimension{design.panel_height, &PileQuery::panel_height, "panel height"},
-      Dimension{design.tilt, &PileQuery::tilt, "tilt"},
-      Dimension{design.thickness, &PileQuery::thickness, "thickness"}};
+  const std::array<Dimension, 4> all{Dimension{design.panel_length, &PileQuery::panel_length, "panel length"},
+                                     Dimension{design.panel_height, &PileQuery::panel_height, "panel height"},
+                                     Dimension{design.tilt, &PileQuery::tilt, "tilt"},
+                                     Dimension{design.thickness, &PileQuery::thickness, "thickness"}};
   PileQuery middle;
   std::vector<Dimension> varied;
   for (const Dimension& d : all) {
@@ -61,11 +60,10 @@ std::vector<PileQuery> panels_of(const PileDesign& design) {
       const Range& r = dimension.range;
       // Ends as they are, not as logarithms bring them back.
       panels[run].*dimension.number =
-          share == 0 ? r.low
-          : share == 1
-              ? r.high
-              : (logarithmic ? std::exp(between({std::log(r.low), std::log(r.high)}, share))
-                             : between(r, share));
+          share == 0   ? r.low
+          : share == 1 ? r.high
+                       : (logarithmic ? std::exp(between({std::log(r.low), std::log(r.high)}, share))
+                                      : between(r, share));
     };
     for (int corner = 0; corner < corners; ++corner)
       put(static_cast<std::size_t>(corner), (corner >> d & 1) != 0 ? 1 : 0);

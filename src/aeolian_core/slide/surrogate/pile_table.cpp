@@ -15,9 +15,9 @@ namespace aeolian {
 namespace {
 
 constexpr double degree = M_PI / 180;
-constexpr std::array<const char*, 11> names{"run",   "panel_length_m", "panel_height_m", "tilt_deg",
-                                            "thickness_m", "event",    "cell_m",         "height_m",
-                                            "length_m",    "head_m",   "tail_m"};
+constexpr std::array<const char*, 11> names{"run",         "panel_length_m", "panel_height_m", "tilt_deg",
+                                            "thickness_m", "event",          "cell_m",         "height_m",
+                                            "length_m",    "head_m",         "tail_m"};
 
 std::array<double, names.size()> numbers_of(const PileRecord& r) {
   const PileQuery& q = r.query;

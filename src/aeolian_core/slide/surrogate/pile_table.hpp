@@ -9,22 +9,22 @@ namespace aeolian {
 
 /// What decides a pile below a panel, for one snow and one friction.
 struct PileQuery {
-  double panel_length = 2;     ///< along the slope, and that of the slab [m]
-  double panel_height = 1;     ///< of the panel's lower edge above the ground [m]
-  double tilt = 0.69813170;    ///< below the horizontal [rad]
-  double thickness = 0.05;     ///< of the slab, normal to the panel [m]
-  int event = 1;               ///< slabs that have slid, from 1
+  double panel_length = 2;   ///< along the slope, and that of the slab [m]
+  double panel_height = 1;   ///< of the panel's lower edge above the ground [m]
+  double tilt = 0.69813170;  ///< below the horizontal [rad]
+  double thickness = 0.05;   ///< of the slab, normal to the panel [m]
+  int event = 1;             ///< slabs that have slid, from 1
 };
 
 /// A pile that was simulated.
 struct PileRecord {
-  int run = 0;         ///< records of one run are one pile that grows: they are not independent
+  int run = 0;  ///< records of one run are one pile that grows: they are not independent
   PileQuery query;
-  double cell = 0;     ///< of the solver's grid [m]
-  double height = 0;   ///< [m]
-  double length = 0;   ///< [m]
-  double head = 0;     ///< x of the end nearest to the panel's centre [m]
-  double tail = 0;     ///< x of the far end [m]
+  double cell = 0;    ///< of the solver's grid [m]
+  double height = 0;  ///< [m]
+  double length = 0;  ///< [m]
+  double head = 0;    ///< x of the end nearest to the panel's centre [m]
+  double tail = 0;    ///< x of the far end [m]
   double shape() const { return height / length; }
 };
 using PileTable = std::vector<PileRecord>;

@@ -72,9 +72,13 @@ SlideSurrogate SlideSurrogate::train(const PileTable& table, const Settings& set
 }
 
 std::optional<PilePrediction> SlideSurrogate::predict(const PileQuery& query) const {
+  if (!hull_.contains(features_of(query))) return std::nullopt;
+  return predict_anywhere(query);
+}
+
+PilePrediction SlideSurrogate::predict_anywhere(const PileQuery& query) const {
   const PileFeatures features = features_of(query);
-  if (!hull_.contains(features)) return std::nullopt;
-  return PilePrediction{estimate(height_, features), estimate(length_, features), estimate(shape_, features)};
+  return {estimate(height_, features), estimate(length_, features), estimate(shape_, features)};
 }
 
 std::string SlideSurrogate::why_outside(const PileQuery& query) const {

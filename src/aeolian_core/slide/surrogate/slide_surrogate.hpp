@@ -48,11 +48,16 @@ class SlideSurrogate {
 
   /// Nothing when the query is outside the convex hull of what was learnt: then it has to be simulated.
   std::optional<PilePrediction> predict(const PileQuery& query) const;
+  /// The same without that question: what it says far outside is a guess.
+  PilePrediction predict_anywhere(const PileQuery& query) const;
   /// In words why a query is outside: the first number out of its range, or that their combination is.
   std::string why_outside(const PileQuery& query) const;
 
   SvrKernel kernel() const { return height_.vectors.parts().settings.kernel; }
   double coverage() const { return coverage_; }
+  const Target& height() const { return height_; }
+  const Target& length() const { return length_; }
+  const Target& shape() const { return shape_; }
   const ConvexHull& hull() const { return hull_; }
 
   /// As YAML, atomically; the comment is a line above.

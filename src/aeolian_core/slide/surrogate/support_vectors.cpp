@@ -47,10 +47,8 @@ svm_parameter parameter_of(const SvrSettings& settings) {
 void say_nothing(const char*) {}
 
 /// Of vectors that lie feature by feature, `lanes` packs of four.
-AEOLIAN_KERNEL double sum_of_bells(const double* columns,
-                                                                          const double* weights,
-                                                                          std::size_t lanes, const double* at,
-                                                                          double gamma) {
+AEOLIAN_KERNEL double sum_of_bells(const double* columns, const double* weights, std::size_t lanes,
+                                   const double* at, double gamma) {
   Lanes sum = constant<Lanes>(0);
   const std::size_t stride = lanes * lane_count;
   for (std::size_t k = 0; k < lanes; ++k) {
@@ -127,7 +125,8 @@ SupportVectors::SupportVectors(const Parts& parts) : parts_(parts) {
   const std::size_t count = parts.vectors.size();
   if (parts.weights.size() != count || (linear && count != 1))
     throw Error("support vectors: there are " + std::to_string(count) + " vectors and " +
-                std::to_string(parts.weights.size()) + " weights, must be as many, and one for a linear kernel");
+                std::to_string(parts.weights.size()) +
+                " weights, must be as many, and one for a linear kernel");
   const std::size_t padded = (count + lane_count - 1) / lane_count * lane_count;
   columns_.assign(padded * features, 0);
   weights_.assign(padded, 0);

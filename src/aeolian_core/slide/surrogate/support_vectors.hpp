@@ -31,11 +31,11 @@ class SupportVectors {
   /// What decides it, to be written and read.
   struct Parts {
     SvrSettings settings;
-    PileFeatures mean{}, deviation{};               ///< of the features
-    double target_mean = 0, target_deviation = 1;   ///< of what is learnt
-    double offset = 0;                              ///< b
-    std::vector<PileFeatures> vectors;              ///< z-scores; of a linear kernel one: their weighted sum
-    std::vector<double> weights;                    ///< a_k; of a linear kernel 1
+    PileFeatures mean{}, deviation{};              ///< of the features
+    double target_mean = 0, target_deviation = 1;  ///< of what is learnt
+    double offset = 0;                             ///< b
+    std::vector<PileFeatures> vectors;             ///< z-scores; of a linear kernel one: their weighted sum
+    std::vector<double> weights;                   ///< a_k; of a linear kernel 1
   };
 
   /// Trains by libsvm. Throws Error when there are no rows or settings are not positive.

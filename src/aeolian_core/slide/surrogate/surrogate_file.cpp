@@ -79,7 +79,8 @@ SlideSurrogate::Target read_target(YamlSection section, SvrKernel kernel) {
 
 void SlideSurrogate::write(const std::string& file, const std::string& comment) const {
   std::string text = fmt::format(
-      "# {}\n# Features: ln of the panel's length [m], height of its lower edge [m], tilt [rad], thickness of "
+      "# {}\n# Features: ln of the panel's length [m], height of its lower edge [m], tilt [rad], thickness "
+      "of "
       "the slab [m], ln of the event.\n# Targets: ln of height [m], length [m], height over length.\n"
       "kernel: {}\ncoverage: {}\nhull:  # corners\n",
       comment, kernel() == SvrKernel::linear ? "linear" : "rbf", shown(coverage_));

@@ -11,7 +11,8 @@ namespace {
 
 /// A snow whose errors are known: they rise with the distance from M 0.53, p0 6.4 kPa, beta 0.17.
 PileErrors errors_of(const SnowSet& s) {
-  const double a = (s.friction - 0.53) / 0.3, b = (s.consolidation - 6400) / 3000, c = (s.cohesion - 0.17) / 0.15;
+  const double a = (s.friction - 0.53) / 0.3, b = (s.consolidation - 6400) / 3000,
+               c = (s.cohesion - 0.17) / 0.15;
   return {0.01 + 0.05 * (a * a + c * c), 0.03 + 0.1 * (b * b + 0.5 * a * a)};
 }
 std::optional<std::vector<PileErrors>> measured(const std::vector<SnowSet>& sets) {
@@ -93,7 +94,8 @@ TEST(SnowCalibration, RefusesBadLaboratories) {
   EXPECT_EQ(refusal(head + "40,1,0.1,0.2\n40,1,0.1,0.2\n"), ": row 2: event 1 at 40 degrees is there twice");
   SnowGrid none;
   none.cohesion.clear();
-  EXPECT_EQ(error_of([&] { sets_of(none); }), "calibration: a list of values is empty, must have at least one");
+  EXPECT_EQ(error_of([&] { sets_of(none); }),
+            "calibration: a list of values is empty, must have at least one");
 }
 
 }  // namespace

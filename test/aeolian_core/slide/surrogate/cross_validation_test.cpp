@@ -55,9 +55,10 @@ TEST(CrossValidation, FoldsHoldWholeRunsAndAreEven) {
 TEST(CrossValidation, RowByRowFoldsLeakAndWholeRunsDoNot) {
   const TrainingRows rows = runs_with_offsets(30);
   const SvrSettings settings{SvrKernel::rbf, 100, 0.01, 1};
-  const double leaking = mean_error(rows, out_of_fold(rows, leaking_folds(rows.targets.size(), 10, 1), settings));
+  const double leaking =
+      mean_error(rows, out_of_fold(rows, leaking_folds(rows.targets.size(), 10, 1), settings));
   const double honest = mean_error(rows, out_of_fold(rows, grouped_folds(rows.runs, 10, 1), settings));
-  EXPECT_LT(leaking, 0.3);
+  EXPECT_LT(leaking, 0.6 * honest);
   EXPECT_GT(honest, 0.6);
 }
 
@@ -68,7 +69,7 @@ TEST(CrossValidation, TheSearchTakesTheKernelWidthThatFits) {
     rows.targets.push_back(std::sin(0.1 * k));
     rows.runs.push_back(k / 2);
   }
-  const SvrGrid grid{{10}, {0.01}, {0.001, 1}};
+  const SvrGrid grid{{0.01}, {1}, {10}, {0.001, 1}};
   const auto folds = grouped_folds(rows.runs, 10, 1);
   EXPECT_EQ(best_settings(rows, folds, SvrKernel::rbf, grid).gamma, 1);
   EXPECT_LT(mean_error(rows, nested_out_of_fold(rows, folds, SvrKernel::rbf, 1, grid)), 0.05);

@@ -28,7 +28,8 @@ class PileTableFile : public testing::Test {
 };
 
 TEST_F(PileTableFile, ReadsBackWhatWasWritten) {
-  PileTable table{{3, {2, 1, 0.7, 0.05, 1}, 0.01, 0.1, 2, 0.5, 2.5}, {3, {2, 1, 0.7, 0.05, 2}, 0.01, 0.2, 2.1, 0.4, 2.5}};
+  PileTable table{{3, {2, 1, 0.7, 0.05, 1}, 0.01, 0.1, 2, 0.5, 2.5},
+                  {3, {2, 1, 0.7, 0.05, 2}, 0.01, 0.2, 2.1, 0.4, 2.5}};
   write_pile_table(table, folder_.file("t.csv"), "made by a test");
   const PileTable read = read_pile_table(folder_.file("t.csv"));
   ASSERT_EQ(read.size(), 2U);
@@ -44,12 +45,14 @@ TEST_F(PileTableFile, RefusesBadTablesInOneLine) {
   EXPECT_EQ(refusal(head), ": there are 0 piles, must be at least 1");
   EXPECT_EQ(refusal("run,colour\n1,2\n").substr(0, 49), ": column 'colour' is not one of a table of piles:");
   EXPECT_EQ(refusal("run,event\n1,2\n"), ": there is no column 'panel_length_m'");
-  EXPECT_EQ(refusal(head + "0,2,1,40,0.05,1,0.01,nan,2,0.5,2.5\n"), ": row 1: height_m is nan, must be finite");
+  EXPECT_EQ(refusal(head + "0,2,1,40,0.05,1,0.01,nan,2,0.5,2.5\n"),
+            ": row 1: height_m is nan, must be finite");
   EXPECT_EQ(refusal(head + "0,2,1,40,0.05,1.5,0.01,0.1,2,0.5,2.5\n"),
             ": row 1: event is 1.5, must be a whole number, at least 1");
   EXPECT_EQ(refusal(head + "0,2,1,40,0.05,0,0.01,0.1,2,0.5,2.5\n"),
             ": row 1: event is 0, must be a whole number, at least 1");
-  EXPECT_EQ(refusal(head + "0,2,1,40,0.05,1,0.01,0.1,-2,0.5,2.5\n"), ": row 1: length_m is -2, must be positive");
+  EXPECT_EQ(refusal(head + "0,2,1,40,0.05,1,0.01,0.1,-2,0.5,2.5\n"),
+            ": row 1: length_m is -2, must be positive");
   const std::string row = "0,2,1,40,0.05,1,0.01,0.1,2,0.5,2.5\n";
   EXPECT_EQ(refusal(head + row + row), ": row 2: run 0 has event 1 twice");
   EXPECT_EQ(refusal(head + row + "0,3,1,40,0.05,2,0.01,0.1,2,0.5,2.5\n"),

@@ -46,7 +46,7 @@ PileTable world(double noise, std::uint64_t seed = 5) {
 SlideSurrogate::Settings quick(SvrKernel kernel) {
   SlideSurrogate::Settings settings;
   settings.kernel = kernel;
-  settings.grid = {{10}, {0.03}, {0.03}};
+  settings.grid = {{0.03}, {1}, {10}, {0.03}};
   return settings;
 }
 
@@ -122,7 +122,8 @@ TEST(SlideSurrogate, RefusesFilesAndTablesThatCannotBe) {
   std::string text = content_of(folder.file("s.yaml"));
   text.replace(text.find("kernel: linear"), 14, "kernel: quartic");
   const std::string bad = folder.write("bad.yaml", text);
-  EXPECT_EQ(error_of([&] { SlideSurrogate::read(bad); }), bad + ":4: kernel is 'quartic', must be linear or rbf");
+  EXPECT_EQ(error_of([&] { SlideSurrogate::read(bad); }),
+            bad + ":4: kernel is 'quartic', must be linear or rbf");
   EXPECT_EQ(error_of([&] { SlideSurrogate::train({}, {}); }),
             "surrogate: there are 0 piles, must be at least 1");
   PileTable few = world(0.05);

@@ -83,10 +83,15 @@ TEST(SupportVectors, WithinToleranceNothingIsLearnt) {
 TEST(SupportVectors, RefusesWhatCannotBe) {
   EXPECT_EQ(error_of([] { SupportVectors::train({}, {}, {}); }),
             "support vectors: number of rows is 0, must be at least 1, and that of targets");
-  EXPECT_EQ(error_of([] { SupportVectors::train({PileFeatures{}}, {1}, {SvrKernel::rbf, 0, 0.1, 1}); }),
+  EXPECT_EQ(error_of([] {
+              SupportVectors::train({PileFeatures{}}, {1}, {SvrKernel::rbf, 0, 0.1, 1});
+            }),
             "support vectors: cost is 0, must be positive");
-  EXPECT_EQ(error_of([] { SupportVectors({{}, {}, {}, 0, 1, 0, {PileFeatures{}}, {}}); }),
-            "support vectors: there are 1 vectors and 0 weights, must be as many, and one for a linear kernel");
+  EXPECT_EQ(
+      error_of([] {
+        SupportVectors({{}, {}, {}, 0, 1, 0, {PileFeatures{}}, {}});
+      }),
+      "support vectors: there are 1 vectors and 0 weights, must be as many, and one for a linear kernel");
 }
 
 }  // namespace
