@@ -12,6 +12,9 @@ int main() {
   aeolian::slide_engine_rows(table);
   aeolian::slide_collapse_rows(table);
   aeolian::slide_pile_rows(table);
+  aeolian::slide_sensitivity_rows(table);
+  aeolian::slide_calibration_rows(table);
+  aeolian::slide_surrogate_rows(table);
   fmt::print(
       "# Accuracy of snow slides\n\nPrinted by `./twin bench slide_accuracy`. Targets are those of the "
       "specification after Frischholz, of closed formulae, and of published experiments.\n\n{}",

@@ -140,58 +140,11 @@ void trends(AccuracyTable& table) {
   table.remark("lower edge of the panel at 40 degrees, and at 50 (target) [m]", edge(50), edge(40));
 }
 
-void sensitivity(AccuracyTable& table) {
-  table.section(
-      "Sensitivity, two dimensions",
-      "Specification, section 5 C: panel at 0.5 m, 40 degrees, two events, T/dx = 2, each number twice its "
-      "nominal one, means of three seeds. S is the relative change of the result over that of the number. "
-      "A subset: the thesis has three events in three dimensions.");
-  SlideScene nominal = lab(40, 2);
-  nominal.panel_height = 0.5;
-  nominal.snow.friction = 0.3;
-  nominal.snow.consolidation = 3000;
-  nominal.snow.cohesion = 0.15;
-  const auto mean = [](SlideScene scene) {
-    PileSize sum;
-    for (const std::uint64_t seed : {1, 2, 3}) {
-      scene.seed = seed;
-      const PileSize pile = piles_of(scene, 2).back();
-      sum.height += pile.height / 3;
-      sum.length += pile.length / 3;
-    }
-    return sum;
-  };
-  const PileSize base = mean(nominal);
-  struct Change {
-    const char* name;
-    double SnowLaw::*number;
-    bool judged;
-  };
-  for (const Change& change :
-       {Change{"M", &SnowLaw::friction, true}, Change{"beta", &SnowLaw::cohesion, true},
-        Change{"p0", &SnowLaw::consolidation, false}, Change{"xi", &SnowLaw::hardening, false}}) {
-    SlideScene scene = nominal;
-    scene.snow.*change.number *= 2;
-    const PileSize pile = mean(scene);
-    const double height = pile.height / base.height - 1;
-    const double length = pile.length / base.length - 1;
-    const std::string told = fmt::format("{:+.2f}, {:+.2f}", height, length);
-    if (change.judged)
-      table.statement(fmt::format("S of {}: height up, length down", change.name), told,
-                      height > 0 && length < 0);
-    else {
-      table.remark(fmt::format("S of {} on the height", change.name), 0, height);
-      table.remark(fmt::format("S of {} on the length", change.name), 0, length);
-    }
-  }
-}
-
 }  // namespace
 
 void slide_pile_rows(AccuracyTable& table) {
   convergence(table);
   trends(table);
-  sensitivity(table);
 }
 
 }  // namespace aeolian

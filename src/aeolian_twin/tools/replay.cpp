@@ -16,7 +16,7 @@
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_twin/replay/ranks.hpp"
+#include "aeolian_twin/ranks/ranks.hpp"
 #include "aeolian_twin/replay/replay_bag.hpp"
 #include "aeolian_twin/replay/replay_summary.hpp"
 #include "aeolian_twin/tools/program.hpp"

@@ -6,17 +6,26 @@
 
 namespace aeolian {
 
-std::vector<double> rescaled_scores(const std::vector<PileErrors>& sets) {
-  std::vector<double> scores(sets.size(), 0);
+ErrorScale::ErrorScale(const std::vector<PileErrors>& sets) {
   for (const auto which : {&PileErrors::height, &PileErrors::length}) {
     const auto less = [&](const PileErrors& a, const PileErrors& b) { return a.*which < b.*which; };
     const auto ends = std::minmax_element(sets.begin(), sets.end(), less);
     if (sets.empty() || !((*ends.second).*which > (*ends.first).*which))
       throw Error("calibration: errors of all sets are the same, must differ to be rescaled");
-    const double low = (*ends.first).*which;
-    const double range = (*ends.second).*which - low;
-    for (std::size_t k = 0; k < sets.size(); ++k) scores[k] += 0.5 * (sets[k].*which - low) / range;
+    low_.*which = (*ends.first).*which;
+    range_.*which = (*ends.second).*which - low_.*which;
   }
+}
+
+double ErrorScale::score(const PileErrors& errors) const {
+  return 0.5 *
+         ((errors.height - low_.height) / range_.height + (errors.length - low_.length) / range_.length);
+}
+
+std::vector<double> rescaled_scores(const std::vector<PileErrors>& sets) {
+  const ErrorScale scale(sets);
+  std::vector<double> scores;
+  for (const PileErrors& errors : sets) scores.push_back(scale.score(errors));
   return scores;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class Ranks {
 
   /// The texts of all, by rank, for rank 0; nothing for the others. All must call it.
   std::vector<std::string> gather(const std::string& text) const;
+  /// The texts of all, by rank, for everyone. All must call it.
+  std::vector<std::string> share(const std::string& text) const;
 
  private:
   bool together_;
