@@ -7,6 +7,7 @@
 
 #include "aeolian_core/surface/require.hpp"
 #include "aeolian_core/wind/flow_potential.hpp"
+#include "aeolian_core/wind/wall_law_response.hpp"
 
 namespace aeolian {
 namespace {
@@ -239,33 +240,8 @@ TerrainResponse mass_consistent_response(const HeightMap& surface, double direct
                                          const ReliefSettings& settings,
                                          const MassConsistentVolume::Settings& solver) {
   const WindRelief relief = wind_relief(surface, settings.shortest());
-  const UpwindProfile upwind = UpwindProfile::log_law(settings.roughness);
-  const MassConsistentVolume volume(relief, direction, upwind, solver);
-  const std::vector<std::uint8_t> separated = sheltered(relief, direction, settings.bubble).separated;
-  const GridGeometry& g = relief.geometry;
-  TerrainResponse response{g, HeightMap::Layer(g.size()), HeightMap::Layer(g.size()),
-                           HeightMap::Layer(g.size())};
-  const HeightMap::Layer& elevation = surface.layer(layer::elevation);
-  const double height = std::max(volume.reference_height(), 20 * settings.roughness);
-  const double undisturbed = upwind.speed(height);
-  const double c = std::cos(direction);
-  const double s = std::sin(direction);
-  tbb::parallel_for(0, g.ny(), [&](int y) {
-    for (int x = 0; x < g.nx(); ++x) {
-      const std::size_t i = g.index(x, y);
-      if (!std::isfinite(elevation[i])) {
-        response.friction[i] = response.deflection[i] = response.separated[i] = HeightMap::unknown;
-      } else if (!separated.empty() && separated[i]) {
-        response.separated[i] = 1;
-      } else {
-        const AirVelocity wind = volume.velocity(g.x(x), g.y(y), height);
-        response.friction[i] = static_cast<float>(std::hypot(wind.east, wind.north) / undisturbed);
-        response.deflection[i] =
-            static_cast<float>(std::atan2(c * wind.north - s * wind.east, c * wind.east + s * wind.north));
-      }
-    }
-  });
-  return response;
+  const MassConsistentVolume volume(relief, direction, UpwindProfile::log_law(settings.roughness), solver);
+  return wall_law_response(surface, relief, volume, direction, settings, volume.reference_height());
 }
 
 }  // namespace aeolian

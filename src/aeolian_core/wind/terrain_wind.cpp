@@ -45,6 +45,8 @@ std::string name_of(WindBackend backend) {
       return "log law";
     case WindBackend::spectral:
       return "spectral";
+    case WindBackend::sph:
+      return "SPH";
     default:
       return "mass consistent";
   }
@@ -115,6 +117,8 @@ TerrainWind::Solution& TerrainWind::solution(const HeightMap& surface, double di
   if (made->backend == WindBackend::spectral) made->response = SpectralWind(relief).solve(surface, middle);
   if (made->backend == WindBackend::mass_consistent)
     made->response = mass_consistent_response(surface, middle, relief, settings_.volume);
+  if (made->backend == WindBackend::sph)
+    made->response = sph_response(surface, middle, relief, settings_.sph);
   ++solutions_;
   if (settings_.sector == 0) solved_.clear();
   solved_.push_back(std::move(made));
@@ -131,6 +135,8 @@ std::unique_ptr<WindVolume> TerrainWind::volume(const HeightMap& surface, double
       return std::make_unique<SpectralVolume>(relief, direction, upwind, settings.bubble, top);
     case WindBackend::mass_consistent:
       return std::make_unique<MassConsistentVolume>(relief, direction, upwind, settings_.volume);
+    case WindBackend::sph:
+      return std::make_unique<SphVolume>(relief, direction, upwind, settings_.sph);
     default:
       return nullptr;
   }

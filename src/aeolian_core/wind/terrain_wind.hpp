@@ -5,13 +5,14 @@
 
 #include "aeolian_core/wind/mass_consistent_wind.hpp"
 #include "aeolian_core/wind/spectral_volume.hpp"
+#include "aeolian_core/wind/sph/sph_volume.hpp"
 #include "aeolian_core/wind/wind_model.hpp"
 
 namespace aeolian {
 
-/// Models of the wind over relief.
-enum class WindBackend { log_law, spectral, mass_consistent };
-/// As a WindField tells it: "log law", "spectral", "mass consistent".
+/// Models of the wind over relief. The air of particles is never chosen, only asked for.
+enum class WindBackend { log_law, spectral, mass_consistent, sph };
+/// As a WindField tells it: "log law", "spectral", "mass consistent", "SPH".
 std::string name_of(WindBackend backend);
 
 /// What is wanted of a wind.
@@ -31,6 +32,7 @@ struct TerrainWindSettings {
   /// Part of the relief's slopes (their squares' sum) that may change before they are solved anew.
   double change = 0.01;
   MassConsistentVolume::Settings volume;
+  SphSettings sph;
 };
 
 /// The wind at the surface of a map, by the model that suits its relief. Solved once for each sector of

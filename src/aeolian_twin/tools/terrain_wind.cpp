@@ -24,7 +24,8 @@ constexpr const char* description =
     R"(The wind over a map (GeoTIFF with a band elevation [m]), from what one anemometer says.
 
 Models: log (the same everywhere), spectral (linear theory: slopes up to 0.3, with the air separated behind steep lees),
-mass_consistent (steep relief, cliffs); auto takes the one that suits the relief. Without --anemometer the reading is that
+mass_consistent (steep relief, cliffs), sph (a box of air made of particles; only when asked for); auto takes the one of
+the others that suits the relief. Without --anemometer the reading is that
 of level surroundings of the map; with it, the surroundings are found of which the relief makes that reading.
 
 Written to DIR: wind.tif (friction velocity, direction, separated air, speed-up), speed_up.png, summary.yaml, and with
@@ -47,6 +48,7 @@ std::optional<WindBackend> backend_of(const std::string& model) {
   if (model == "log") return WindBackend::log_law;
   if (model == "spectral") return WindBackend::spectral;
   if (model == "mass_consistent") return WindBackend::mass_consistent;
+  if (model == "sph") return WindBackend::sph;
   return std::nullopt;
 }
 
@@ -127,8 +129,8 @@ int run(int argc, char** argv) {
   app.add_option("--roughness", o.roughness, "aerodynamic roughness length of the ground [m]")
       ->check(CLI::Range(1e-8, 10.0))
       ->capture_default_str();
-  app.add_option("--model", o.model, "auto, log, spectral or mass_consistent")
-      ->check(CLI::IsMember({"auto", "log", "spectral", "mass_consistent"}))
+  app.add_option("--model", o.model, "auto, log, spectral, mass_consistent or sph")
+      ->check(CLI::IsMember({"auto", "log", "spectral", "mass_consistent", "sph"}))
       ->capture_default_str();
   app.add_option("--probes", o.probes, "CSV of points in the air");
   app.add_option("--out", o.out, "folder for the results")->required();
