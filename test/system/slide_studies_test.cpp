@@ -24,7 +24,7 @@ const std::string scene =
     "events: 2\n"
     "between_events: keep\n";
 const std::string table =
-    "scene: small.yaml\npanel_length_m: [0.08, 0.14]\npanel_height_m: [0.1, 0.1]\ntilt_deg: [45, 50]\n"
+    "scene: small.yaml\npanel_length_m: [0.08, 0.14]\npanel_height_m: [0.25, 0.25]\ntilt_deg: [45, 50]\n"
     "thickness_m: [0.02, 0.02]\ncells_per_thickness: 2\nruns: 10\nevents: 2\n";
 const std::string shipped = AEOLIAN_REPOSITORY "/config/slide/piles_2d.yaml";
 
@@ -152,7 +152,7 @@ TEST_F(SlideStudies, RefusesFlagsThatDoNotBelongTogether) {
   EXPECT_EQ(run("--sensitivity --out out").err, "slide_snow: --config is required\n");
   EXPECT_EQ(run("--config small.yaml").err, "slide_snow: --out is required\n");
   EXPECT_NE(run("--predict --event 0").code, 0);
-  EXPECT_NE(run("--predict --panel-length nan").code, 0);
+  EXPECT_EQ(run("--predict --table " + shipped + " --panel-length nan").code, 1);
 }
 
 }  // namespace
