@@ -94,14 +94,14 @@ void slide_sensitivity_rows(AccuracyTable& table) {
   table.statement("p0 lengthens the pile at events 1 and 2", told(length[2]),
                   length[2][0] > 0 && length[2][1] > 0);
   const double most = std::max(largest(height[0]), largest(height[1]));
-  table.range_row("largest |S| of xi on the height, over that of M and beta", 0, 1. / 3,
+  table.range_row("largest size of S of xi on the height, over that of M and beta", 0, 1. / 3,
                   largest(height[3]) / most);
-  table.range_row("largest |S| of E on the height, over that of M and beta", 0, 1. / 3,
+  table.range_row("largest size of S of E on the height, over that of M and beta", 0, 1. / 3,
                   largest(height[4]) / most);
   int larger = 0;
   for (std::size_t c = 0; c < std::size(changes); ++c)
     larger += largest(height[c]) > largest(length[c]) ? 1 : 0;
-  table.range_row("numbers of five whose largest |S| is of the height, not the length", 5, 5, larger);
+  table.range_row("numbers of five whose largest S is of the height, not the length", 5, 5, larger);
 }
 
 }  // namespace aeolian
