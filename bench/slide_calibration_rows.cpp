@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "slide_rows.hpp"
 #include <tbb/parallel_for.h>

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "slide_rows.hpp"
 #include <tbb/parallel_for.h>
