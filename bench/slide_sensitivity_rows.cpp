@@ -92,7 +92,7 @@ void slide_sensitivity_rows(AccuracyTable& table) {
   table.statement("beta shortens the pile from event 2 on", told(length[1]), all(length[1], 1, -1));
   table.statement("beta's S of the height grows with events", told(height[1]),
                   height[1][0] < height[1][1] && height[1][1] < height[1][2]);
-  table.statement("p0 changes the height less than M and beta", told(height[2]),
+  table.statement("p0 changes the height less than M or beta (ours, not the thesis')", told(height[2]),
                   largest(height[2]) < std::max(largest(height[0]), largest(height[1])));
   table.statement("p0 lengthens the pile at events 1 and 2", told(length[2]),
                   length[2][0] > 0 && length[2][1] > 0);
