@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "slide_rows.hpp"
 #include <tbb/parallel_for.h>
@@ -89,19 +92,19 @@ void slide_sensitivity_rows(AccuracyTable& table) {
   table.statement("beta shortens the pile from event 2 on", told(length[1]), all(length[1], 1, -1));
   table.statement("beta's S of the height grows with events", told(height[1]),
                   height[1][0] < height[1][1] && height[1][1] < height[1][2]);
-  table.statement("p0 changes the height less than M and beta", told(height[2]),
+  table.statement("p0 changes the height less than M or beta (ours, not the thesis')", told(height[2]),
                   largest(height[2]) < std::max(largest(height[0]), largest(height[1])));
   table.statement("p0 lengthens the pile at events 1 and 2", told(length[2]),
                   length[2][0] > 0 && length[2][1] > 0);
   const double most = std::max(largest(height[0]), largest(height[1]));
-  table.range_row("largest |S| of xi on the height, over that of M and beta", 0, 1. / 3,
+  table.range_row("largest size of S of xi on the height, over that of M and beta", 0, 1. / 3,
                   largest(height[3]) / most);
-  table.range_row("largest |S| of E on the height, over that of M and beta", 0, 1. / 3,
+  table.range_row("largest size of S of E on the height, over that of M and beta", 0, 1. / 3,
                   largest(height[4]) / most);
   int larger = 0;
   for (std::size_t c = 0; c < std::size(changes); ++c)
     larger += largest(height[c]) > largest(length[c]) ? 1 : 0;
-  table.range_row("numbers of five whose largest |S| is of the height, not the length", 5, 5, larger);
+  table.range_row("numbers of five whose largest S is of the height, not the length", 5, 5, larger);
 }
 
 }  // namespace aeolian

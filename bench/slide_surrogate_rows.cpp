@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -72,7 +71,8 @@ void slide_surrogate_rows(AccuracyTable& table) {
           "that "
           "leak. Folds of whole runs, with settings searched within the others, are the honest figure; they "
           "leave "
-          "out corners of the table, too, and must then reach beyond it. Ten folds.",
+          "out corners of the table, too, and must then reach beyond it. Ten folds. "
+          "Tolerances of the coverage are two standard errors of so few runs: wide.",
           piles.size(), runs.size()));
   const TrainingRows shape = rows_of(piles, [](const PileRecord& r) { return r.shape(); });
   const TrainingRows height = rows_of(piles, [](const PileRecord& r) { return r.height; });

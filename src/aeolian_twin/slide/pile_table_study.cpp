@@ -29,8 +29,7 @@ std::string settings_of(const PileTableConfig& config, const std::string& file, 
   return fmt::format("{}\nsnow: {}\nseed: {}\n", YAML::Dump(YAML::LoadFile(file)), config.base.name, seed);
 }
 
-constexpr int least_runs = 10;          ///< as many as folds
-constexpr std::size_t least_rows = 19;  ///< for an interval that holds in nine of ten
+constexpr std::size_t least_runs = 10;  ///< as many as folds
 
 }  // namespace
 
@@ -88,10 +87,11 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
   bar.clear();
   if (ranks.rank() > 0) return options.stop ? stopped_code : 0;
   PileTable table;
-  std::size_t done = 0;
+  std::size_t done = 0, slid = 0;
   for (std::size_t run = 0; run < jobs.size(); ++run) {
     if (!outcomes[run]) continue;
     ++done;
+    slid += outcomes[run]->piles.empty() ? 0 : 1;
     if (!outcomes[run]->ended.empty()) fmt::print("panel {}: {}\n", run, outcomes[run]->ended);
     for (std::size_t k = 0; k < outcomes[run]->piles.size(); ++k) {
       const PileSize& pile = outcomes[run]->piles[k];
@@ -119,8 +119,9 @@ int make_pile_table(const std::string& file, const StudyOptions& options) {
       options.command, options.seed, config.cells_per_thickness, config.base.scene.panel_friction);
   write_pile_table(table, name + ".csv", comment);
   fmt::print("{} piles of {} panels -> {}.csv\n", table.size(), jobs.size(), name);
-  if (static_cast<int>(jobs.size()) < least_runs || table.size() < least_rows)
-    fmt::print("too few to learn from, {} panels and {} piles are the least\n", least_runs, least_rows);
+  if (slid < least_runs)
+    fmt::print("{} panels from which slabs have slid are too few to learn from, {} are the least\n", slid,
+               least_runs);
   else {
     const SlideSurrogate surrogate = best_surrogate(table, options.seed);
     surrogate.write(name + "_surrogate.yaml", comment);

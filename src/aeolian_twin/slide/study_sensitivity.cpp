@@ -130,7 +130,8 @@ std::vector<IndexRow> indices_of(const SensitivityConfig& config,
 void plot(const SensitivityConfig& config, const std::vector<IndexRow>& rows, const std::string& file) {
   std::ostringstream script;
   script << plot_style << "set style data histograms\nset style histogram errorbars gap 2 lw 1\n"
-         << "set style fill solid\nset xzeroaxis lt -1\nset yrange [*:*]\nset multiplot layout 1,2\n";
+         << "set style fill solid\nset xzeroaxis lt -1\nset yrange [*:*]\nset key above\nset multiplot "
+            "layout 1,2\n";
   for (const bool height : {true, false}) {
     const char* what = height ? "height" : "length";
     script << "$" << what << " << EOD\n";
@@ -145,7 +146,7 @@ void plot(const SensitivityConfig& config, const std::vector<IndexRow>& rows, co
     }
     script << "EOD\nset ylabel 'S of the " << what << ", relative change per relative change'\nplot ";
     for (int e = 1; e <= config.events; ++e)
-      script << fmt::format("${} using {}:{}{} title 'event {}' fc rgb '#{:02x}{:02x}{:02x}'{}", what, 2 * e,
+      script << fmt::format("${} using {}:{}{} title 'event {}' lc rgb '#{:02x}{:02x}{:02x}'{}", what, 2 * e,
                             2 * e + 1, e == 1 ? ":xtic(1)" : "", e, 168 - 150 * e / config.events,
                             200 - 148 * e / config.events, 226 - 130 * e / config.events,
                             e < config.events ? ", " : "\n");

@@ -1,7 +1,6 @@
 #include "aeolian_core/slide/calibration/snow_calibration.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <nlopt.hpp>
