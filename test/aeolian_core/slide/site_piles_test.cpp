@@ -1,6 +1,7 @@
 #include "aeolian_core/slide/piles/site_piles.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "../../error_of.hpp"
 #include <gtest/gtest.h>
@@ -42,8 +43,9 @@ void put(const HeightMap& patch, HeightMap& map) {
   for (std::size_t k = 0; k < patch.geometry().size(); ++k) {
     const CellIndex at = patch.geometry().cell_at(k);
     const auto there = map.geometry().find(patch.geometry().x(at.x), patch.geometry().y(at.y));
-    if (std::isfinite(patch.layer(layer::elevation)[k]))
-      map.layer(layer::elevation)[map.geometry().index(*there)] = patch.layer(layer::elevation)[k];
+    if (!std::isfinite(patch.layer(layer::elevation)[k])) continue;
+    for (const std::string& name : {layer::elevation, layer::variance})
+      map.layer(name)[map.geometry().index(*there)] = patch.layer(name)[k];
   }
 }
 
@@ -125,7 +127,8 @@ TEST(SitePiles, APatchHoldsTheSnow) {
       if (!std::isfinite(top[k])) continue;
       const double depth = static_cast<double>(top[k] - event->patch.layer(layer::ground)[k]);
       EXPECT_NEAR(event->patch.layer(layer::ground)[k], 1, 1e-6);
-      EXPECT_GT(static_cast<double>(event->patch.layer(layer::variance)[k]), 1e-6 + 0.039 * depth * depth);
+      const double grid = (scene.cell * scene.cell + scene.cell * scene.cell) / 12;
+      EXPECT_NEAR(event->patch.layer(layer::variance)[k], 1e-6 + grid + 0.04 * depth * depth, 1e-6);
       highest = std::max(highest, top[k]);
     }
     EXPECT_NEAR(highest - 1, event->size.height, 0.012);
@@ -148,6 +151,11 @@ TEST(SitePiles, GoOnWhetherTheMapShowsThePileOrNot) {
     EXPECT_EQ(event->news, put_back ? PileNews::seen : PileNews::unseen);
     EXPECT_EQ(event->number, 2);
     EXPECT_GT(event->size.height, first->size.height);
+    const float top = 0.04F * 0.25F * 0.25F;  // no pile is deeper: variances do not add up over events
+    for (const float v : event->patch.layer(layer::variance))
+      if (std::isfinite(v)) {
+        EXPECT_LT(v, top);
+      }
     return event->size.height;
   };
   EXPECT_NEAR(second(true), second(false), 0.015);

@@ -1,6 +1,7 @@
 #include "aeolian_core/slide/piles/site_piles.hpp"
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "aeolian_core/slide/piles/slide_series.hpp"
@@ -50,7 +51,7 @@ class Piles : public SitePiles {
     result.duration = event->duration;
     result.still = event->still;
     result.left_behind = event->left_behind / (event->left_behind + event->mass);
-    result.patch = site_patch(map, scene, site_, *pile_, Dim, model_error_);
+    result.patch = site_patch(map, scene, site_, *pile_, bare_, Dim, model_error_);
     return result;
   }
 
@@ -90,14 +91,13 @@ class Piles : public SitePiles {
   /// Puts the ground of the last event where there is snow within `reach` [m]: beside the pile the map's
   /// cells mix it with the ground.
   void lay_bare(HeightMap& ground, double reach) const {
-    HeightMap::Layer& elevation = ground.layer(layer::elevation);
-    const HeightMap::Layer& before = bare_.layer(layer::elevation);
     const GridGeometry& grid = ground.geometry();
     for (std::size_t k = 0; k < grid.size(); ++k) {
       const CellIndex at = grid.cell_at(k);
       const double x = grid.x(at.x), y = grid.y(at.y);
-      if (bare_.geometry().find(x, y) && has_snow_near(x, y, reach))
-        elevation[k] = static_cast<float>(sample(bare_.geometry(), before, x, y));
+      if (!bare_.geometry().find(x, y) || !has_snow_near(x, y, reach)) continue;
+      for (const std::string& name : {layer::elevation, layer::variance})
+        ground.layer(name)[k] = static_cast<float>(sample(bare_.geometry(), bare_.layer(name), x, y));
     }
   }
 

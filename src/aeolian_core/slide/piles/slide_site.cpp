@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,9 +21,9 @@ struct Area {
   double x0, x1, half_width;
 };
 
-double elevation_at(const HeightMap& map, const SlideSite& site, const Point<2>& slide) {
+double value_at(const HeightMap& map, const std::string& name, const SlideSite& site, const Point<2>& slide) {
   const Point<2> at = site.to_map(slide);
-  return sample(map.geometry(), map.layer(layer::elevation), at.x(), at.y());
+  return sample(map.geometry(), map.layer(name), at.x(), at.y());
 }
 
 double lowest_known(const HeightMap& map) {
@@ -43,7 +44,7 @@ double flight(const HeightMap& map, const SlideScene& scene, const SlideSite& si
   if (square == 0) return 0;
   for (double way = 0;; way += scene.cell) {
     const double z = scene.lower_edge() - way * s / c - 0.5 * gravity * way * way / (square * c * c);
-    const double ground = elevation_at(map, site, {edge + way, 0});
+    const double ground = value_at(map, layer::elevation, site, {edge + way, 0});
     if (z <= (std::isfinite(ground) ? ground : lowest)) return way;
   }
 }
@@ -94,12 +95,14 @@ SiteGround ground_of_site(const HeightMap& map, const SlideScene& scene, const S
   const Area area = area_of(map, scene, site, dimensions);
   SiteGround ground{HeightMap(grid_of(area, scene.cell))};
   const GridGeometry& grid = ground.map.geometry();
-  HeightMap::Layer heights(grid.size());
+  HeightMap::Layer heights(grid.size()), variances(grid.size(), HeightMap::unknown);
   std::vector<char> panel(grid.size());
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const CellIndex at = grid.cell_at(k);
     const Point<2> place(grid.x(at.x), grid.y(at.y));
-    heights[k] = static_cast<float>(elevation_at(map, site, place));
+    heights[k] = static_cast<float>(value_at(map, layer::elevation, site, place));
+    if (map.has(layer::variance))
+      variances[k] = static_cast<float>(value_at(map, layer::variance, site, place));
     panel[k] = hidden_by_panel(scene, place, static_cast<double>(heights[k])) ? 1 : 0;
   }
   // Beside what is panel the map mixes panel and ground.
@@ -120,6 +123,7 @@ SiteGround ground_of_site(const HeightMap& map, const SlideScene& scene, const S
         "must be at most {:.0f} %",
         100 * share, grid.length_x(), grid.length_y(), site.x, site.y, 100 * most_unknown));
   ground.map.add(layer::elevation, filled(grid, heights));
+  ground.map.add(layer::variance, filled(grid, variances));
   ground.guessed = static_cast<double>(unknown + hidden) / static_cast<double>(heights.size());
   return ground;
 }
@@ -148,7 +152,7 @@ GridGeometry part_under(const GridGeometry& map, const SlideSite& site, const Gr
 }  // namespace
 
 HeightMap site_patch(const HeightMap& map, const SlideScene& scene, const SlideSite& site,
-                     const HeightMap& pile, int dimensions, double model_error) {
+                     const HeightMap& pile, const HeightMap& bare, int dimensions, double model_error) {
   const GridGeometry& local = pile.geometry();
   const double half_slab = dimensions == 2 ? 0.5 * scene.slab_width : 0;
   HeightMap patch(part_under(map.geometry(), site, local, half_slab));
@@ -173,12 +177,10 @@ HeightMap site_patch(const HeightMap& map, const SlideScene& scene, const SlideS
     if (hidden_by_panel(scene, place, seen)) continue;
     ground[k] = static_cast<float>(floor);
     top[k] = static_cast<float>(floor + depth);
-    double sum = sample(local, pile.layer(layer::variance), place.x(), along_y) + square(model_error * depth);
-    if (map.has(layer::variance)) {
-      const double known = static_cast<double>(map.layer(layer::variance)[in_map]);
-      if (std::isfinite(known)) sum += known;
-    }
-    variance[k] = static_cast<float>(sum);
+    const HeightMap::Layer& of_ground = bare.layer(layer::variance);
+    variance[k] = static_cast<float>(sample(bare.geometry(), of_ground, place.x(), along_y) +
+                                     sample(local, pile.layer(layer::variance), place.x(), along_y) +
+                                     square(model_error * depth));
   }
   return patch;
 }

@@ -18,7 +18,9 @@ struct SlideSite {
 
 /// The ground of a slide as a map of the slide's own axes.
 struct SiteGround {
-  HeightMap map;     ///< `elevation`, on cells as large as the solver's; in two dimensions one row
+  /// On cells as large as the solver's, in two dimensions one row: `elevation`, and its `variance` (0 where
+  /// the map has none).
+  HeightMap map;
   double guessed{};  ///< share of the cells that were filled from those about them
 };
 
@@ -32,11 +34,12 @@ bool hidden_by_panel(const SlideScene& scene, const Point<2>& slide, double elev
 SiteGround ground_of_site(const HeightMap& map, const SlideScene& scene, const SlideSite& site,
                           int dimensions, double most_unknown = 0.1);
 
-/// A pile (pile_map() in the slide's axes, on its cells) as a patch of a map: cells of the map that carry at
-/// least half a cell of snow have elevation, ground and variance, others are unknown. In two dimensions the
-/// pile is as wide as the slab. To the variance of pile_map() come that of the ground, where the map has it,
-/// and the square of `model_error` times the depth.
+/// A pile (pile_map() in the slide's axes, on its cells) that lies on `bare` ground (of ground_of_site) as a
+/// patch of a map: cells of the map that carry at least half a cell of snow have elevation, ground and
+/// variance, others, and those that show the panel, are unknown. In two dimensions the pile is as wide as the
+/// slab. To the variance of pile_map() come that of the ground and the square of `model_error` times the
+/// depth.
 HeightMap site_patch(const HeightMap& map, const SlideScene& scene, const SlideSite& site,
-                     const HeightMap& pile, int dimensions, double model_error);
+                     const HeightMap& pile, const HeightMap& bare, int dimensions, double model_error);
 
 }  // namespace aeolian
