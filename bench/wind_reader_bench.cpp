@@ -1,8 +1,9 @@
-// What a reading of an anemometer costs wind_estimator once its sector is solved: over a rippled bed (one cell
-// is told), over a hill (a map of 6 layers is), with gust statistics of ten minutes at 10 Hz, and probes.
+// What a reading of an anemometer costs wind_estimator once its sector is solved: over a rippled bed (one
+// cell is told), over a hill (a map of 6 layers is), with gust statistics of ten minutes at 10 Hz, and
+// probes.
 //
-// `of_bandwidth`: the time in which a plain copy, measured here, moves the bytes of the message, over the time
-// taken. `solutions`: how often the wind over the map was solved, for all readings together.
+// `of_bandwidth`: the time in which a plain copy, measured here, moves the bytes of the message, over the
+// time taken. `solutions`: how often the wind over the map was solved, for all readings together.
 //
 //     ./twin bench wind_reader
 

@@ -1,4 +1,5 @@
-/// wind_estimator as a program: two anemometers over ridges whose wind theory knows, probes, refusals, arrows.
+/// wind_estimator as a program: two anemometers over ridges whose wind theory knows, probes, refusals,
+/// arrows.
 #include <array>
 #include <cmath>
 
@@ -181,7 +182,8 @@ TEST_F(WindEstimatorTest, InTheLeeItIsRefusedAndTheLastFieldStays) {
   stand("lee", 7, 1);
   const std::size_t before = fields_.messages.size();
   EXPECT_FALSE(blow(110, 2, "lee"));
-  EXPECT_TRUE(diagnostics_.warns("wind_estimator", "(lee): anemometer at (7, 0) m: it stands in the air that"));
+  EXPECT_TRUE(
+      diagnostics_.warns("wind_estimator", "(lee): anemometer at (7, 0) m: it stands in the air that"));
   EXPECT_EQ(fields_.messages.size(), before);
   const auto at = probe({{7, 0, 0.5}, {-20, 0, 4}}).response;
   ASSERT_TRUE(at.success) << "the last good wind is still told of: " << at.message;
