@@ -2,8 +2,8 @@
 // cell is told), over a hill (a map of 6 layers is), with gust statistics of ten minutes at 10 Hz, and
 // probes.
 //
-// `of_bandwidth`: the time in which a plain copy, measured here, moves the bytes of the message, over the
-// time taken. `solutions`: how often the wind over the map was solved, for all readings together.
+// `of_bandwidth`: the time in which a plain copy through memory, measured here, moves the bytes that a
+// reading must read and write, over the time taken; above one they were in the cache. `solutions`: how often the wind over the map was solved, for all readings together.
 //
 //     ./twin bench wind_reader
 
