@@ -3,7 +3,8 @@
 // probes.
 //
 // `of_bandwidth`: the time in which a plain copy through memory, measured here, moves the bytes that a
-// reading must read and write, over the time taken; above one they were in the cache. `solutions`: how often the wind over the map was solved, for all readings together.
+// reading must read and write, over the time taken; above one they were in the cache. `solutions`: how often
+// the wind over the map was solved, for all readings together.
 //
 //     ./twin bench wind_reader
 
