@@ -139,6 +139,8 @@ TEST_F(ChainTest, TheAnemometersFrameGivesHeightAndDirection) {
   mast.header.frame_id = "map";
   mast.header.stamp = ros::Time::now();
   mast.child_frame_id = "anemometer";
+  mast.transform.translation.x = 0.16;  // in the middle, between trough and crest
+  mast.transform.translation.y = 0.08;
   mast.transform.translation.z = 2.01;  // the ground of the ripples is at 0.01
   mast.transform.rotation.z = std::sqrt(0.5);
   mast.transform.rotation.w = std::sqrt(0.5);

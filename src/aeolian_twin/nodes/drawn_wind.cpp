@@ -64,9 +64,10 @@ class Drawing {
         lowest_(lowest_height(layers.heights)) {}
 
   Marker arrow_lines() const {
-    Marker lines = marker("arrows");
-    lines.color.r = lines.color.g = 0.05F;
-    lines.color.b = 0.1F;
+    Marker lines = marker("arrows");  // a blue that is seen on dark and on pale sand
+    lines.color.r = 0;
+    lines.color.g = 0.55F;
+    lines.color.b = 1;
     lines.color.a = 1;
     std::vector<Vector2d> places;
     double greatest = 0;
@@ -93,8 +94,10 @@ class Drawing {
 
   Marker streamlines() {
     Marker lines = marker("streamlines");
-    lines.color.r = lines.color.g = lines.color.b = 1;
-    lines.color.a = 0.8F;
+    lines.color.r = 0.6F;
+    lines.color.g = 0.82F;
+    lines.color.b = 1;
+    lines.color.a = 0.9F;
     const double step = between * spacing_;
     lanes_x_ = static_cast<int>(std::ceil(grid_.length_x() / step));
     lanes_y_ = static_cast<int>(std::ceil(grid_.length_y() / step));

@@ -269,7 +269,8 @@ NodeDescription describe_surface_display() {
       "surface_display",
       "shows any grid map in a stock rviz",
       {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed",
-       "wind_field (grid_map_msgs/GridMap): while somebody looks at its arrows, or at crests, which lie across "
+       "wind_field (grid_map_msgs/GridMap): while somebody looks at its arrows, or at crests, which lie "
+       "across "
        "it"},
       {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
        "range (std_msgs/Float64MultiArray, latched): the values of the first and last colour, where the map "
@@ -300,7 +301,8 @@ NodeDescription describe_surface_display() {
            "drawn with its centre at the frame's origin, for maps with large coordinates"},
           {"max_mesh_cells", 60000.0, "", "a larger map is drawn with coarser cells", Limits::positive()},
           {"title", std::string(), "", "text above the mesh, which then has a colour bar; empty: neither"},
-          {"unit", std::string("m"), "", "of the colours, as the bar says it; of m also millimetres are told"},
+          {"unit", std::string("m"), "",
+           "of the colours, as the bar says it; of m also millimetres are told"},
           {"crest_period", 1.0, "s", "least time between drawings of the crests", Limits::not_negative()},
           {"wind_period", 1.0, "s", "least time between drawings of the wind", Limits::not_negative()},
           {"direction_deg", 0.0, "degrees",

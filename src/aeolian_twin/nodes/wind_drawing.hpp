@@ -45,8 +45,7 @@ class WindDrawing {
       else
         draw_when_due();
     };
-    publisher_ =
-        node_.advertise<Message>(what_.topic, 1, looks, [this](const Looker&) { follow_wind(); });
+    publisher_ = node_.advertise<Message>(what_.topic, 1, looks, [this](const Looker&) { follow_wind(); });
   }
   WindDrawing(const WindDrawing&) = delete;
   WindDrawing& operator=(const WindDrawing&) = delete;
@@ -101,7 +100,7 @@ class WindDrawing {
   What what_;
   ros::WallDuration period_;
   std::optional<WindField> wind_;
-  std::optional<Message> drawn_;        ///< of the map as it is
+  std::optional<Message> drawn_;       ///< of the map as it is
   std::optional<WindField> drawn_in_;  ///< the wind of the last drawing
   ros::WallTime drawn_at_;
   ros::WallTimer due_;

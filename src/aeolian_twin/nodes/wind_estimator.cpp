@@ -28,8 +28,7 @@ class WindEstimator : public Node {
     publisher_ = nh().advertise<grid_map_msgs::GridMap>("wind_field", 100);
     statistics_publisher_ = nh().advertise<aeolian_msgs::WindStatistics>("wind_statistics", 100);
     listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
-    probes_ =
-        std::make_unique<WindProbes>(nh(), *reader_, parameters().text("frame_id"), tf_buffer_, tell);
+    probes_ = std::make_unique<WindProbes>(nh(), *reader_, parameters().text("frame_id"), tf_buffer_, tell);
     WantedMap wanted;
     wanted.layers = {layer::elevation};
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {

@@ -2,14 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace aeolian {
 namespace {
 
-/// Half the side of a square whose mean smooths as wind_relief() does a wave of length one: both keep half
-/// of it in a Gaussian's measure, sqrt(2 ln 2)/(2 pi) sqrt(3).
-constexpr double half_side = 0.3246;
-constexpr double least_cells = 4;  ///< as wind_relief()
+/// Standard deviation of the Gaussian that keeps half of a wave of length one, as wind_relief() does.
+constexpr double sigma_of_wave = 0.18739;  // sqrt(2 ln 2)/(2 pi)
+constexpr double reach = 3;                // standard deviations
+constexpr double least_cells = 4;          ///< as there
+
+/// Cells of one axis about a place, and their weights.
+struct Near {
+  Near(double place, int n, double sigma)
+      : first(std::max(0, static_cast<int>(std::ceil(place - reach * sigma)))) {
+    const int last = std::min(n - 1, static_cast<int>(std::floor(place + reach * sigma)));
+    for (int i = first; i <= last; ++i)
+      weights.push_back(std::exp(-0.5 * (i - place) * (i - place) / (sigma * sigma)));
+  }
+  int first;
+  std::vector<double> weights;
+};
 
 }  // namespace
 
@@ -33,23 +46,22 @@ bool WindGround::is_known(double x, double y) const {
 
 double WindGround::at(double x, double y) const {
   if (!is_known(x, y)) return mean_;
-  const double reach = half_side * std::max(shortest_, least_cells * extent_.cell());
-  const auto cell = [&](double length) { return static_cast<int>(std::floor(length / extent_.cell())); };
-  const int x0 = std::max(0, cell(x - reach - extent_.origin_x()));
-  const int x1 = std::min(extent_.nx() - 1, cell(x + reach - extent_.origin_x()));
-  const int y0 = std::max(0, cell(y - reach - extent_.origin_y()));
-  const int y1 = std::min(extent_.ny() - 1, cell(y + reach - extent_.origin_y()));
+  const double sigma = sigma_of_wave * std::max(shortest_ / extent_.cell(), least_cells);
+  const Near across((x - extent_.origin_x()) / extent_.cell() - 0.5, extent_.nx(), sigma);
+  const Near up((y - extent_.origin_y()) / extent_.cell() - 0.5, extent_.ny(), sigma);
   const HeightMap::Layer& elevation = map_.layer(layer::elevation);
   double sum = 0;
-  std::size_t count = 0;
-  for (int iy = y0; iy <= y1; ++iy)
-    for (int ix = x0; ix <= x1; ++ix) {
-      const float z = elevation[extent_.index(ix, iy)];
-      if (!std::isfinite(z)) continue;
-      sum += static_cast<double>(z);
-      ++count;
+  double weights = 0;
+  for (std::size_t j = 0; j < up.weights.size(); ++j) {
+    const float* row = &elevation[extent_.index(across.first, up.first + static_cast<int>(j))];
+    for (std::size_t i = 0; i < across.weights.size(); ++i) {
+      if (!std::isfinite(row[i])) continue;
+      const double weight = across.weights[i] * up.weights[j];
+      sum += weight * static_cast<double>(row[i]);
+      weights += weight;
     }
-  return count > 0 ? sum / static_cast<double>(count) : mean_;
+  }
+  return sum / weights;
 }
 
 }  // namespace aeolian

@@ -68,8 +68,7 @@ std::optional<grid_map_msgs::GridMap> WindReader::take_wind(const geometry_msgs:
           fmt::format("{:.2f} m/s at {:.2f} m over the ground gives a friction velocity of {:.3f} m/s{}",
                       anemometer.window.mean(averaging_time_).norm(), height, wind.friction_velocity,
                       wind.cells.names().empty() ? "" : ", by the " + wind.model + " wind over the map"));
-    if (!wind.cells.names().empty())
-      wind.cells.add(layer::elevation, ground_.map()->layer(layer::elevation));
+    if (!wind.cells.names().empty()) wind.cells.add(layer::elevation, ground_.map()->layer(layer::elevation));
     stamp_ = message.header.stamp;
     time_ = now;
     field_ = std::move(wind);

@@ -11,14 +11,14 @@ namespace aeolian {
 /// Gusts of a record, in the terms of meteorologists; not a number where there are too few readings.
 struct GustStatistics {
   std::size_t readings = 0;
-  double duration = 0;                                                    ///< first to last reading [s]
-  double speed = std::numeric_limits<double>::quiet_NaN();                ///< of the mean velocity [m/s]
-  double direction = std::numeric_limits<double>::quiet_NaN();            ///< where that blows to [rad]
-  double deviation_along = std::numeric_limits<double>::quiet_NaN();      ///< standard, along it [m/s]
-  double deviation_across = std::numeric_limits<double>::quiet_NaN();     ///< [m/s]
-  double turbulence_intensity = std::numeric_limits<double>::quiet_NaN(); ///< deviation_along/speed
-  double gust = std::numeric_limits<double>::quiet_NaN();                 ///< greatest mean speed of 3 s [m/s]
-  double gust_ratio = std::numeric_limits<double>::quiet_NaN();           ///< gust/speed
+  double duration = 0;                                                     ///< first to last reading [s]
+  double speed = std::numeric_limits<double>::quiet_NaN();                 ///< of the mean velocity [m/s]
+  double direction = std::numeric_limits<double>::quiet_NaN();             ///< where that blows to [rad]
+  double deviation_along = std::numeric_limits<double>::quiet_NaN();       ///< standard, along it [m/s]
+  double deviation_across = std::numeric_limits<double>::quiet_NaN();      ///< [m/s]
+  double turbulence_intensity = std::numeric_limits<double>::quiet_NaN();  ///< deviation_along/speed
+  double gust = std::numeric_limits<double>::quiet_NaN();        ///< greatest mean speed of 3 s [m/s]
+  double gust_ratio = std::numeric_limits<double>::quiet_NaN();  ///< gust/speed
 };
 
 /// The newest readings of one anemometer.

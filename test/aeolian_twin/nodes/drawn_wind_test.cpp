@@ -31,9 +31,9 @@ TEST(DrawnWind, OverLevelGroundArrowsAreEqualAndStreamlinesStraight) {
   EXPECT_EQ(markers[0].pose.position.x, 105);
   for (const Marker& lines : markers)
     for (std::size_t i = 0; i + 1 < lines.points.size(); i += lines.ns == "arrows" ? 6 : 2)
-      EXPECT_NEAR(std::atan2(lines.points[i + 1].y - lines.points[i].y,
-                             lines.points[i + 1].x - lines.points[i].x),
-                  M_PI / 6, 1e-6);
+      EXPECT_NEAR(
+          std::atan2(lines.points[i + 1].y - lines.points[i].y, lines.points[i + 1].x - lines.points[i].x),
+          M_PI / 6, 1e-6);
   EXPECT_GT(markers[1].points.size(), 1000U);
 }
 
