@@ -19,13 +19,13 @@ struct Upwind {
 };
 
 struct AirSettings {
-  float support = 2.4F;     ///< of the kernel, in spacings
-  float step = 0.2F;        ///< of time, of the support over the greatest speed
-  float residual = 1e-3F;   ///< divergence that the pressure leaves, root mean square, in U over spacing
-  int iterations = 60;      ///< of the pressure, at most
+  float support = 2.4F;    ///< of the kernel, in spacings
+  float step = 0.2F;       ///< of time, of the support over the greatest speed
+  float residual = 1e-3F;  ///< divergence that the pressure leaves, root mean square, in U over spacing
+  int iterations = 60;     ///< of the pressure, at most
   float viscosity = 0.1F;  ///< kinematic, in U times spacing: damps what the spacing does not resolve
-  float shifting = 0.5F;    ///< strength of the shift towards even spacing (Lind et al. 2012)
-  float ring_rate = 1.0F;   ///< at which the ring gives its wind, in U over spacing
+  float shifting = 0.5F;   ///< strength of the shift towards even spacing (Lind et al. 2012)
+  float ring_rate = 1.0F;  ///< at which the ring gives its wind, in U over spacing
 };
 
 /// What a guard did since the start; in a sound run all are zero but `refilled`, which counts what a moving

@@ -48,6 +48,7 @@ class SphVolume : public WindVolume {
   double spacing_ = 1;
   double top_ = 0;
   double scale_ = 1;  ///< U in units of the upwind profile
+  std::unique_ptr<sph::AirGround> ground_;
   std::unique_ptr<sph::MeanAir> mean_;
   FaceFlows flows_;
   std::size_t particles_ = 0;
