@@ -202,6 +202,24 @@ void SphAir::differentiate() {
   });
 }
 
+void SphAir::damp() {
+  const NeighbourRows& rows = finder_.rows();
+  for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Four sum{};
+      for (std::size_t k = rows.begin[i]; k < rows.images[i]; ++k) {
+        const std::size_t j = rows.who[k];
+        const Four g = rows.gradient[k];
+        // What the derivatives on both sides tell is resolved, and kept.
+        const Four told = (slope_[0][i] + slope_[0][j]) * g[0] + (slope_[1][i] + slope_[1][j]) * g[1] +
+                          (slope_[2][i] + slope_[2][j]) * g[2];
+        sum += (motion_[j] - motion_[i]) * g[3] - told;
+      }
+      bend_[i] += settings_.damping * sum;
+    }
+  });
+}
+
 void SphAir::press() {
   pressure_.resize(size());
   source_.resize(size());
@@ -302,6 +320,7 @@ void SphAir::step() {
   see_walls();
   finder_.find(cells_, place_, normal_);
   differentiate();
+  damp();
   press();
   push();
   time_ += static_cast<double>(dt_);
