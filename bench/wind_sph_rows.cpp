@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "../test/aeolian_core/wind/sph/air_box.hpp"
 #include "wind_rows.hpp"

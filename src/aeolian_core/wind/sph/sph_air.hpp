@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "aeolian_core/wind/sph/air_ground.hpp"
 #include "aeolian_core/wind/sph/neighbours.hpp"
 #include "aeolian_core/wind/sph/pressure_solver.hpp"
@@ -14,7 +12,7 @@ struct Upwind {
   /// Friction velocity over U; zero for a wind that is the same at all heights.
   float friction = 0;
   float roughness = 0;  ///< z0 over the spacing
-  /// Its speed at a height over the ground, never more than at `top`.
+  /// Its speed at a height over the ground.
   float speed(float height) const;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "aeolian_core/wind/spectral_wind.hpp"
 #include "aeolian_core/wind/sph/mean_air.hpp"
 #include "aeolian_core/wind/terrain_response.hpp"

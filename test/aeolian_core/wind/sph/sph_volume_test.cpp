@@ -1,5 +1,7 @@
 #include "aeolian_core/wind/sph/sph_volume.hpp"
 
+#include <cmath>
+
 #include "../relief_worlds.hpp"
 #include <gtest/gtest.h>
 
