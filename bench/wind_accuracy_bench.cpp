@@ -11,6 +11,7 @@ int main() {
   aeolian::volume_rows(table);
   aeolian::askervein_rows(table);
   aeolian::gust_rows(table);
+  aeolian::sph_rows(table);
   fmt::print(
       "# Accuracy of the wind over terrain\n\nPrinted by `./twin bench wind_accuracy`. Targets are analytic "
       "results and measurements as collected in the acceptance checks of the wind spec (labels F, G, C, E); "

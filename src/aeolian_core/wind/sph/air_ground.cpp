@@ -25,7 +25,8 @@ Blend blend(float at, float length, float ring, float width) {
 
 }  // namespace
 
-AirGround::AirGround(const WindRelief& relief, const BoxPlace& place) : relief_(&relief), place_(place) {
+AirGround::AirGround(const WindRelief& relief, const BoxPlace& place)
+    : geometry_(relief.geometry), place_(place) {
   const GridGeometry& g = relief.geometry;
   cells_ = static_cast<float>(place.spacing / g.cell());
   height_.reserve(relief.height.size());
@@ -54,13 +55,13 @@ AirGround::AirGround(const WindRelief& relief, const BoxPlace& place) : relief_(
 void AirGround::move(double x, double y) {
   place_.x = x;
   place_.y = y;
-  const GridGeometry& g = relief_->geometry;
+  const GridGeometry& g = geometry_;
   origin_x_ = static_cast<float>((x - g.origin_x()) / g.cell() - 0.5);
   origin_y_ = static_cast<float>((y - g.origin_y()) / g.cell() - 0.5);
 }
 
 AirGround::Surface AirGround::relief(float x, float y) const {
-  const GridGeometry& g = relief_->geometry;
+  const GridGeometry& g = geometry_;
   const float last_x = static_cast<float>(g.nx() - 1);
   const float last_y = static_cast<float>(g.ny() - 1);
   const float at_x = origin_x_ + x * cells_;

@@ -26,7 +26,6 @@ struct BoxPlace {
 /// beyond the map it is that of its border.
 class AirGround {
  public:
-  /// The relief must outlive it.
   AirGround(const WindRelief& relief, const BoxPlace& place);
 
   const BoxPlace& place() const { return place_; }
@@ -53,7 +52,7 @@ class AirGround {
   /// The foot of a perpendicular, sought from above (x, y).
   Foot foot(const Four& at, float x, float y, float reach) const;
 
-  const WindRelief* relief_;
+  GridGeometry geometry_;
   BoxPlace place_;
   float level_ = 0;
   float highest_ = 0;

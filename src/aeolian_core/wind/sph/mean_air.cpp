@@ -10,6 +10,7 @@ namespace {
 
 /// Of the kernel's sum: a point on a wall has half of it.
 constexpr float least_air = 0.25F;
+constexpr float least_told = 0.02F;
 
 }  // namespace
 
@@ -27,43 +28,38 @@ AirProbe probe(const SphAir& air, const Four& at) {
   return result;
 }
 
-MeanAir::MeanAir(const SphAir& air, int levels)
-    : nx_(air.ground().place().nx), ny_(air.ground().place().ny), levels_(levels) {
-  const std::size_t n =
-      static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(levels + 1);
-  sum_.assign(n, Four{});
-  count_.assign(n, 0);
+MeanAir::MeanAir(const SphAir& air)
+    : nx_(air.ground().place().nx), ny_(air.ground().place().ny), nz_(air.ground().place().nz) {
+  sum_.assign(index(nx_ - 1, ny_ - 1, nz_) + 1, Four{});
+  count_.assign(sum_.size(), 0);
 }
 
-std::size_t MeanAir::index(int x, int y, int level) const {
+std::size_t MeanAir::index(int x, int y, int z) const {
   return (static_cast<std::size_t>((y % ny_ + ny_) % ny_) * static_cast<std::size_t>(nx_) +
           static_cast<std::size_t>((x % nx_ + nx_) % nx_)) *
-             static_cast<std::size_t>(levels_ + 1) +
-         static_cast<std::size_t>(level);
+             static_cast<std::size_t>(nz_ + 1) +
+         static_cast<std::size_t>(z);
 }
 
 void MeanAir::add(const SphAir& air) {
-  ++asked_;
   tbb::parallel_for(0, ny_, [&](int y) {
-    for (int x = 0; x < nx_; ++x) {
-      const float px = static_cast<float>(x) + 0.5F;
-      const float py = static_cast<float>(y) + 0.5F;
-      const float ground = air.ground().height(px, py);
-      for (int level = 0; level <= levels_; ++level) {
-        const AirProbe p = probe(air, Four{px, py, ground + static_cast<float>(level), 0});
-        if (!p.valid) continue;
-        sum_[index(x, y, level)] += p.velocity;
-        count_[index(x, y, level)] += 1;
+    for (int x = 0; x < nx_; ++x)
+      for (int z = 0; z <= nz_; ++z) {
+        const AirProbe p = probe(
+            air, Four{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z), 0});
+        // A site in the ground takes what the nearest air would have there.
+        if (p.air < least_told) continue;
+        sum_[index(x, y, z)] += p.velocity;
+        count_[index(x, y, z)] += 1;
       }
-    }
   });
 }
 
-Four MeanAir::at(float x, float y, float height) const {
+Four MeanAir::at(float x, float y, float z) const {
   const float fx = std::floor(x - 0.5F);
   const float fy = std::floor(y - 0.5F);
-  const float z = std::clamp(height, 0.0F, static_cast<float>(levels_));
-  const int low = std::min(static_cast<int>(z), levels_ - 1);
+  z = std::clamp(z, 0.0F, static_cast<float>(nz_));
+  const int low = std::min(static_cast<int>(z), nz_ - 1);
   const float part[3] = {x - 0.5F - fx, y - 0.5F - fy, z - static_cast<float>(low)};
   Four sum{};
   float weights = 0;
@@ -78,13 +74,6 @@ Four MeanAir::at(float x, float y, float height) const {
   }
   if (!(weights > 0)) return Four{NAN, NAN, NAN, 0};
   return sum / weights;
-}
-
-double MeanAir::invalid_share() const {
-  double found = 0;
-  for (const float c : count_) found += static_cast<double>(c);
-  return 1 -
-         found / (static_cast<double>(count_.size()) * static_cast<double>(std::max<std::size_t>(asked_, 1)));
 }
 
 }  // namespace aeolian::sph

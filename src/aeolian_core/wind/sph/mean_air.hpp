@@ -14,28 +14,23 @@ struct AirProbe {
 /// `at` in spacings.
 AirProbe probe(const SphAir& air, const Four& at);
 
-/// The mean over time of the wind over the ground of a box, at sites a spacing apart along x and y and at
-/// heights over the ground of 0, 1, 2, ... spacings.
+/// The mean over time of the wind in a box, at sites a spacing apart from its floor to its lid; those in the
+/// ground are told from the air beside them.
 class MeanAir {
  public:
-  /// Up to `levels` spacings.
-  MeanAir(const SphAir& air, int levels);
+  explicit MeanAir(const SphAir& air);
   /// Adds the wind as it is.
   void add(const SphAir& air);
 
-  int levels() const { return levels_; }
-  /// Trilinear, in U; in spacings of the box and over the ground. Where no probe was valid: not a number.
-  Four at(float x, float y, float height) const;
-  /// Probes that found too little air, over all.
-  double invalid_share() const;
+  /// Trilinear, in U; at a place in spacings of the box. Where no probe was valid: not a number.
+  Four at(float x, float y, float z) const;
 
  private:
-  std::size_t index(int x, int y, int level) const;
+  std::size_t index(int x, int y, int z) const;
 
-  int nx_, ny_, levels_;
+  int nx_, ny_, nz_;
   std::vector<Four> sum_;
   std::vector<float> count_;
-  std::size_t asked_ = 0;
 };
 
 }  // namespace aeolian::sph

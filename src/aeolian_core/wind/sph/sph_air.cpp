@@ -18,6 +18,7 @@ constexpr float fastest_wind = 20;  ///< of the surroundings' that is still a wi
 /// Where between the old velocity (0) and the new (1) the air is free of divergence: at the middle no energy
 /// is lost, a little later what the spacing does not resolve dies out.
 constexpr float implicitness = 0.6F;
+constexpr float still = 0.5F;  ///< speed below which steps grow no longer
 constexpr int settling_steps = 40;
 constexpr int first_iterations = 400;
 
@@ -201,6 +202,24 @@ void SphAir::differentiate() {
   });
 }
 
+void SphAir::damp() {
+  const NeighbourRows& rows = finder_.rows();
+  for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Four sum{};
+      for (std::size_t k = rows.begin[i]; k < rows.images[i]; ++k) {
+        const std::size_t j = rows.who[k];
+        const Four g = rows.gradient[k];
+        // What the derivatives on both sides tell is resolved, and kept.
+        const Four told = (slope_[0][i] + slope_[0][j]) * g[0] + (slope_[1][i] + slope_[1][j]) * g[1] +
+                          (slope_[2][i] + slope_[2][j]) * g[2];
+        sum += (motion_[j] - motion_[i]) * g[3] - told;
+      }
+      bend_[i] += settings_.damping * sum;
+    }
+  });
+}
+
 void SphAir::press() {
   pressure_.resize(size());
   source_.resize(size());
@@ -240,7 +259,7 @@ void SphAir::carry(std::size_t i, const Four& way) {
 
 void SphAir::push() {
   const float dt = dt_;
-  const float shifting = settings_.shifting * settings_.support * fastest_ * dt;
+  const float shifting = settings_.shifting * settings_.support * std::max(fastest_, still) * dt;
   greatest_.resize(chunks_of(size()));
   std::vector<std::size_t> slowed(chunks_of(size()), 0);
   const float lid_drag = upwind_.friction * upwind_.friction;
@@ -293,7 +312,7 @@ void SphAir::push() {
 
 void SphAir::step() {
   // Air at rest is asked again after the time in which a wind of its scale would cross a spacing.
-  dt_ = settings_.step * settings_.support / std::max(fastest_, 0.5F);
+  dt_ = settings_.step * settings_.support / std::max(fastest_, still);
   for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) carry(i, (0.5F * dt_) * motion_[i]);
   });
@@ -301,6 +320,7 @@ void SphAir::step() {
   see_walls();
   finder_.find(cells_, place_, normal_);
   differentiate();
+  damp();
   press();
   push();
   time_ += static_cast<double>(dt_);

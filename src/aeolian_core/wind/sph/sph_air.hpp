@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "aeolian_core/wind/sph/air_ground.hpp"
 #include "aeolian_core/wind/sph/neighbours.hpp"
 #include "aeolian_core/wind/sph/pressure_solver.hpp"
@@ -14,18 +12,19 @@ struct Upwind {
   /// Friction velocity over U; zero for a wind that is the same at all heights.
   float friction = 0;
   float roughness = 0;  ///< z0 over the spacing
-  /// Its speed at a height over the ground, never more than at `top`.
+  /// Its speed at a height over the ground.
   float speed(float height) const;
 };
 
 struct AirSettings {
-  float support = 2.4F;     ///< of the kernel, in spacings
-  float step = 0.2F;        ///< of time, of the support over the greatest speed
-  float residual = 1e-3F;   ///< divergence that the pressure leaves, root mean square, in U over spacing
-  int iterations = 60;      ///< of the pressure, at most
-  float viscosity = 0.04F;  ///< kinematic, in U times spacing: damps what the spacing does not resolve
-  float shifting = 0.5F;    ///< strength of the shift towards even spacing (Lind et al. 2012)
-  float ring_rate = 1.0F;   ///< at which the ring gives its wind, in U over spacing
+  float support = 2.4F;      ///< of the kernel, in spacings
+  float step = 0.2F;         ///< of time, of the support over the greatest speed
+  float residual = 1e-3F;    ///< divergence that the pressure leaves, root mean square, in U over spacing
+  int iterations = 60;       ///< of the pressure, at most
+  float viscosity = 0.002F;  ///< kinematic, in U times spacing
+  float damping = 0.2F;      ///< the same for what differs from a linear field between two particles
+  float shifting = 0.5F;     ///< strength of the shift towards even spacing (Lind et al. 2012)
+  float ring_rate = 1.0F;    ///< at which the ring gives its wind, in U over spacing
 };
 
 /// What a guard did since the start; in a sound run all are zero but `refilled`, which counts what a moving
@@ -98,6 +97,7 @@ class SphAir {
   void refill();
   void see_walls();
   void differentiate();
+  void damp();
   void press();
   void push();
   void carry(std::size_t i, const Four& way);

@@ -86,7 +86,7 @@ SphVolume::SphVolume(const WindRelief& relief, double direction, const UpwindPro
 }
 
 void SphVolume::blow(double direction, const SphSettings& settings) {
-  const sph::AirGround ground(relief_, place_);
+  ground_ = std::make_unique<sph::AirGround>(relief_, place_);
   const double height = place_.nz * spacing_;
   scale_ = upwind_.speed(height);
   require(scale_ > 0, "height of the box", height, "above the roughness length");
@@ -97,11 +97,11 @@ void SphVolume::blow(double direction, const SphSettings& settings) {
     upwind.friction = static_cast<float>(1 / scale_);
     upwind.roughness = static_cast<float>(upwind_.roughness() / spacing_);
   }
-  sph::SphAir air(ground, upwind, settings.air);
+  sph::SphAir air(*ground_, upwind, settings.air);
   particles_ = air.size();
-  const int levels = std::max(2, place_.nz - static_cast<int>(std::ceil(ground.highest())) - 1);
+  const int levels = std::max(2, place_.nz - static_cast<int>(std::ceil(ground_->highest())) - 1);
   top_ = levels * spacing_;
-  mean_ = std::make_unique<sph::MeanAir>(air, levels);
+  mean_ = std::make_unique<sph::MeanAir>(air);
   const double length = std::max(place_.nx, place_.ny);
   const double end = settings.flow_throughs * length;
   double next = 0.5 * end;
@@ -117,9 +117,9 @@ void SphVolume::blow(double direction, const SphSettings& settings) {
 }
 
 AirVelocity SphVolume::resolved(double x, double y, double height) const {
-  const sph::Four u =
-      mean_->at(static_cast<float>((x - place_.x) / spacing_), static_cast<float>((y - place_.y) / spacing_),
-                static_cast<float>(height / spacing_));
+  const auto px = static_cast<float>((x - place_.x) / spacing_);
+  const auto py = static_cast<float>((y - place_.y) / spacing_);
+  const sph::Four u = mean_->at(px, py, ground_->height(px, py) + static_cast<float>(height / spacing_));
   return {scale_ * static_cast<double>(u[0]), scale_ * static_cast<double>(u[1]),
           scale_ * static_cast<double>(u[2])};
 }
@@ -135,17 +135,16 @@ AirVelocity SphVolume::velocity(double x, double y, double height) const {
 }
 
 void SphVolume::resample() {
-  const sph::AirGround ground(relief_, place_);
   const GridGeometry& g = relief_.geometry;
   const int nx = std::max(1, static_cast<int>(g.length_x() / spacing_));
   const int ny = std::max(1, static_cast<int>(g.length_y() / spacing_));
-  const int nz = mean_->levels();
+  const int nz = static_cast<int>(std::lround(top_ / spacing_));
   const double dx = g.length_x() / nx;
   const double dy = g.length_y() / ny;
   flows_ = FaceFlows(nx, ny, nz);
   const auto height = [&](double x, double y) {
-    return spacing_ * static_cast<double>(ground.height(static_cast<float>((x - place_.x) / spacing_),
-                                                        static_cast<float>((y - place_.y) / spacing_)));
+    return spacing_ * static_cast<double>(ground_->height(static_cast<float>((x - place_.x) / spacing_),
+                                                          static_cast<float>((y - place_.y) / spacing_)));
   };
   const auto wind = [&](double x, double y, double z) {
     if (!upwind_.sheared() || z >= reference_height()) return resolved(x, y, z);

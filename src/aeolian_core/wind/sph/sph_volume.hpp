@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "aeolian_core/wind/spectral_wind.hpp"
 #include "aeolian_core/wind/sph/mean_air.hpp"
 #include "aeolian_core/wind/terrain_response.hpp"
@@ -48,6 +50,7 @@ class SphVolume : public WindVolume {
   double spacing_ = 1;
   double top_ = 0;
   double scale_ = 1;  ///< U in units of the upwind profile
+  std::unique_ptr<sph::AirGround> ground_;
   std::unique_ptr<sph::MeanAir> mean_;
   FaceFlows flows_;
   std::size_t particles_ = 0;
