@@ -13,7 +13,7 @@ namespace aeolian {
 /// A day of wind on a bed of single grains, as it truly was: what the twin has to learn from, and another
 /// model than the one that it forecasts with.
 struct LearningDay {
-  static constexpr double period = 30;      ///< between surfaces [s]
+  static constexpr double period = 10;      ///< between surfaces [s]
   static constexpr double duration = 1200;  ///< [s]
 
   GridGeometry plot;                      ///< periodic
