@@ -137,6 +137,7 @@ void ForecastEngine::judge(const HeightMap& map, double time) {
   while (!starts_.empty() && seconds_between(starts_.front().time, time) > longest) starts_.pop_front();
   const Lesson& start = starts_.empty() ? *lesson_ : starts_.front();
   const double duration = seconds_between(start.time, time);
+  if (duration < longest / 2) return;  // it would be judged by little else than what it was learned from
   const std::vector<WindSpell> wind = known_wind(start.time, duration);
   if (wind.empty()) return;
   const auto hindcast = [&](const UncertainParameters& parameters) {

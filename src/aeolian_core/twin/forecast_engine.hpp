@@ -31,8 +31,8 @@ struct ForecastJob {
 ///
 /// What was learned over a minute moves forecasts only once it has proved itself over the time of a forecast:
 /// with each lesson, hindcasts with the learned and with the given parameters go to the newest map from the
-/// oldest one that is not farther back than the longest horizon (nor than the wind is remembered). Whichever
-/// comes nearer, beyond doubt (two standard errors), is believed from then on.
+/// oldest one that is not farther back than the longest horizon (nor than the wind is remembered), but half
+/// as far at least. Whichever comes nearer, beyond doubt (two standard errors), is believed from then on.
 class ForecastEngine {
  public:
   struct Settings {
