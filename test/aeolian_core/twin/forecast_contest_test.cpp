@@ -30,11 +30,11 @@ TEST(ForecastContest, TheNearerForecastHasTheAdvantageAndTheOtherTheSameDisadvan
 
 TEST(ForecastContest, OfTwoThatAreEquallyWrongNeitherWinsMoreOftenThanByChance) {
   int decided = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
     if (std::abs(
             advantage(wave(0, 3e-4, 2 * seed), wave(0, 3e-4, 2 * seed + 1), wave(0, 3e-4, 1000 + seed))) > 2)
       ++decided;
-  EXPECT_LE(decided, 11);  // 4.6 are to be expected beyond two standard errors
+  EXPECT_LE(decided, 6);  // two are to be expected beyond two standard errors
 }
 
 TEST(ForecastContest, WhatCannotBeToldIsZero) {
