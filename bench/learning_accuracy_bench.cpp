@@ -10,5 +10,7 @@ int main() {
   aeolian::AccuracyTable table;
   aeolian::same_model_rows(table, folder);
   aeolian::lattice_day_rows(table, folder);
+  aeolian::scanned_day_rows(table, folder);
+  aeolian::noisy_day_rows(table, folder);
   fmt::print("# Accuracy of learning\n\nPrinted by `./twin bench learning_accuracy`. {}", table.markdown());
 }

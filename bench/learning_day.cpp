@@ -91,7 +91,7 @@ LearningDay learning_day(std::uint64_t seed, const std::string& folder) {
   LearningDay day;
   day.plot = GridGeometry(0, 0, 0.002, 256, 128);
   day.wind = weather.wind(seed);
-  const std::string path = fmt::format("{}/day_{}.tif", folder, seed);
+  const std::string path = fmt::format("{}/day_{}_every_{:.0f}_s.tif", folder, seed, LearningDay::period);
   if (std::filesystem::exists(path)) {
     const HeightMap kept = read_geotiff(path);
     for (const std::string& name : kept.names()) day.surface.push_back(kept.layer(name));

@@ -13,7 +13,7 @@ namespace aeolian {
 /// A day of wind on a bed of single grains, as it truly was: what the twin has to learn from, and another
 /// model than the one that it forecasts with.
 struct LearningDay {
-  static constexpr double period = 30;      ///< between surfaces [s]
+  static constexpr double period = 10;      ///< between surfaces [s]
   static constexpr double duration = 1200;  ///< [s]
 
   GridGeometry plot;                      ///< periodic
@@ -30,7 +30,7 @@ Grain learning_grain();
 
 /// The day of a seed: its mean friction velocity is 0.38 to 0.5 m/s with gusts of 12 %, it turns by up to 20
 /// degrees to either side, and its ripples are five to ten minutes old when it begins. Days are kept in a
-/// folder: one takes about a minute to make.
+/// folder: one takes some seconds to make.
 LearningDay learning_day(std::uint64_t seed, const std::string& folder);
 
 }  // namespace aeolian

@@ -7,11 +7,14 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/require.hpp"
+#include "aeolian_core/twin/forecast_contest.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr Require require{"forecaster"};
+constexpr double beyond_doubt = 2;  // standard errors
+constexpr double kept_starts = 5;   // within the time of a forecast
 
 void check(const ForecastEngine::Settings& settings) {
   const auto positive = [](double value, const char* name) {
@@ -54,7 +57,10 @@ ForecastEngine::ForecastEngine(const Settings& settings)
       hindcasts_(settings.physics, without_errors(settings.ensemble)),
       wind_(settings.wind) {
   settings_.physics.saltation.check(settings_.physics.grain);
-  if (settings_.learner) learner_.emplace(*settings_.learner);
+  if (!settings_.learner) return;
+  learner_.emplace(*settings_.learner);
+  given_ = learner_->members();
+  given_median_ = learner_->median();
 }
 
 void ForecastEngine::take_wind(const WindSample& sample) {
@@ -70,6 +76,7 @@ void ForecastEngine::give_wind_ahead(std::vector<WindSample> samples) {
 
 void ForecastEngine::begin_anew() {
   lesson_.reset();
+  starts_.clear();
   last_forecast_.reset();
   forecast_before_.reset();
 }
@@ -85,6 +92,8 @@ std::optional<ParameterLearner::Update> ForecastEngine::learn(const HeightMap& m
   if (lesson_ && period < settings_.learning_period) return std::nullopt;
   std::optional<ParameterLearner::Update> update;
   if (lesson_) update = learn(*lesson_, map, period);
+  if (update && update->learned) judge(map, time);
+  if (lesson_) keep_start(*lesson_);
   lesson_ = Lesson{time, layers_of(map, {layer::elevation, layer::ground})};
   return update;
 }
@@ -108,14 +117,44 @@ ParameterLearner::Update ForecastEngine::learn(const Lesson& lesson, const Heigh
       hindcasts_.run(lesson.start, wind, {period}, learner_->members(), learner_->median()), 0, map);
 }
 
+/// Empty when it has a gap.
+std::vector<WindSpell> ForecastEngine::known_wind(double from, double duration) const {
+  std::vector<WindSpell> wind = wind_.blew(from, duration);
+  for (const WindSpell& spell : wind)
+    if (spell.longest_gap > settings_.wind.max_gap) return {};
+  return wind;
+}
+
+void ForecastEngine::keep_start(const Lesson& lesson) {
+  const double apart = std::min(settings_.horizons.back(), settings_.wind.memory) / kept_starts;
+  if (starts_.empty() || seconds_between(starts_.back().time, lesson.time) >= apart)
+    starts_.push_back(lesson);
+}
+
+/// Of what was learned, by the longest hindcast to a map that there is.
+void ForecastEngine::judge(const HeightMap& map, double time) {
+  const double longest = std::min(settings_.horizons.back(), settings_.wind.memory);
+  while (!starts_.empty() && seconds_between(starts_.front().time, time) > longest) starts_.pop_front();
+  const Lesson& start = starts_.empty() ? *lesson_ : starts_.front();
+  const double duration = seconds_between(start.time, time);
+  if (duration < longest / 2) return;  // it would be judged by little else than what it was learned from
+  const std::vector<WindSpell> wind = known_wind(start.time, duration);
+  if (wind.empty()) return;
+  const auto hindcast = [&](const UncertainParameters& parameters) {
+    return hindcasts_.run(start.start, wind, {duration}, {}, parameters).forecasts.front().map;
+  };
+  const double found = advantage(hindcast(learner_->median()), hindcast(given_median_), map);
+  if (std::abs(found) > beyond_doubt) believes_ = found > 0;
+}
+
 ForecastJob ForecastEngine::make_job(const HeightMap& map, double time, std::vector<WindSpell> wind) const {
   ForecastJob job;
   job.time = time;
   job.wind = std::move(wind);
   job.start = layers_of(map, {layer::elevation, layer::ground, layer::variance});
   if (learner_) {
-    job.members = learner_->members();
-    job.median = learner_->median();
+    job.members = believes_ ? learner_->members() : given_;
+    job.median = believes_ ? learner_->median() : given_median_;
   }
   return job;
 }
@@ -123,6 +162,7 @@ ForecastJob ForecastEngine::make_job(const HeightMap& map, double time, std::vec
 ForecastEngine::Taken ForecastEngine::take_map(const HeightMap& map, double time) {
   require(std::isfinite(time), "time of a map", time, "finite");
   if (last_map_ && time < *last_map_) begin_anew();
+  if (!last_map_ && learner_) believes_ = learner_->state().updates > 0;
   last_map_ = time;
 
   Taken taken;

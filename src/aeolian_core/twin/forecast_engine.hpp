@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct ForecastJob {
 ///
 /// It learns from hindcasts: when a map comes, members go to it from an earlier one in the wind that blew, so
 /// that what they miss by is the parameters', not the weather's.
+///
+/// What was learned over a minute moves forecasts only once it has proved itself over the time of a forecast:
+/// with each lesson, hindcasts with the learned and with the given parameters go to the newest map from the
+/// oldest one that is not farther back than the longest horizon (nor than the wind is remembered), but half
+/// as far at least. Whichever comes nearer, beyond doubt (two standard errors), is believed from then on.
 class ForecastEngine {
  public:
   struct Settings {
@@ -72,6 +78,9 @@ class ForecastEngine {
   EnsembleForecast run(const ForecastJob& job) const;
 
   ParameterLearner* learner() { return learner_ ? &*learner_ : nullptr; }
+  /// Whether forecasts are made with what was learned rather than with what was given. What was loaded into
+  /// the learner before the first map is believed until it is refuted.
+  bool believes() const { return believes_; }
   const Settings& settings() const { return settings_; }
 
  private:
@@ -85,6 +94,9 @@ class ForecastEngine {
   bool is_due(double time) const;
   std::optional<ParameterLearner::Update> learn(const HeightMap& map, double time);
   ParameterLearner::Update learn(const Lesson& lesson, const HeightMap& map, double period);
+  std::vector<WindSpell> known_wind(double from, double duration) const;
+  void judge(const HeightMap& map, double time);
+  void keep_start(const Lesson& lesson);
   ForecastJob make_job(const HeightMap& map, double time, std::vector<WindSpell> wind) const;
 
   Settings settings_;
@@ -92,7 +104,11 @@ class ForecastEngine {
   ForecastEnsemble hindcasts_;  ///< members differ in their parameters only
   WindCourse wind_;
   std::optional<ParameterLearner> learner_;
+  std::vector<UncertainParameters> given_;  ///< the learner's members before anything is learned
+  UncertainParameters given_median_;
+  bool believes_ = false;
   std::optional<Lesson> lesson_;
+  std::deque<Lesson> starts_;  ///< of hindcasts over the time of a forecast, oldest first
   std::optional<double> last_map_;
   std::optional<double> last_forecast_, forecast_before_;
 };

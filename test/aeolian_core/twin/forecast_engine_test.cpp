@@ -1,9 +1,15 @@
 #include "aeolian_core/twin/forecast_engine.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "../../error_of.hpp"
 #include <gtest/gtest.h>
+
+#include "aeolian_core/twin/map_error.hpp"
 
 namespace aeolian {
 namespace {
@@ -170,6 +176,82 @@ TEST(ForecastEngine, AMapIsLearnedFromInTheWindThatBlewAndNotInThatWhichWasFores
   };
   EXPECT_NEAR(learned_in(0.5), 1, 0.02);
   EXPECT_GT(learned_in(0.42), 1.08);  // an anemometer that reads too little
+}
+
+/// The twin's own model moves a bed by the minute in a wind, which the engine is told wrong by a factor.
+class ToldDay {
+ public:
+  explicit ToldDay(double factor) : factor_(factor) {
+    chosen_.horizons = {180};
+    chosen_.period = chosen_.learning_period = 60;
+    chosen_.learner.emplace();
+  }
+
+  ForecastEngine::Settings chosen_;
+
+  /// A map comes, and a minute goes by; so often. The last job.
+  ForecastJob after(ForecastEngine& engine, int maps) {
+    ForecastJob job;
+    for (int i = 0; i < maps; ++i, ++minute_) {
+      for (int second = minute_ == 0 ? 0 : -59; second <= 0; ++second)
+        engine.take_wind(sample(60 * minute_ + second, 0.45 * factor_));
+      auto taken = engine.take_map(bed_, epoch + 60 * minute_);
+      if (taken.job) job = std::move(*taken.job);
+      WindSpell breeze;
+      breeze.samples = {sample(0, 0.45)};
+      breeze.weights = {1};
+      RippleModel(chosen_.physics.ripple).advance(bed_, forcing_of(chosen_.physics, breeze, {}), 60);
+    }
+    return job;
+  }
+
+ private:
+  double factor_;
+  int minute_ = 0;
+  HeightMap bed_ = [] {
+    const GridGeometry plot(0, 0, 0.005, 80, 40);
+    HeightMap map(plot);
+    map.add(layer::elevation, smooth_noise(plot, 0.03, 1, 1));
+    for (float& z : map.layer(layer::elevation)) z *= 0.001F;
+    return map;
+  }();
+};
+
+TEST(ForecastEngine, WhatWasLearnedIsUsedOnceItHasForecastBetter) {
+  ToldDay day(0.87);
+  ForecastEngine engine(day.chosen_);
+  EXPECT_EQ(day.after(engine, 1).median.values(), UncertainParameters{}.values());
+  EXPECT_FALSE(engine.believes());
+  const ForecastJob job = day.after(engine, 6);
+  EXPECT_TRUE(engine.believes());
+  EXPECT_EQ(job.median.values(), engine.learner()->median().values());
+  EXPECT_NEAR(job.median.friction_velocity, 1 / 0.87, 0.03);
+}
+
+TEST(ForecastEngine, WhatWasLoadedIsUsedUntilItIsRefuted) {
+  ToldDay day(1);
+  day.chosen_.learner->least_spread = 0;
+  ForecastEngine engine(day.chosen_);
+  const std::string path = testing::TempDir() + "refuted.yaml";
+  ParameterLearner wrong = [&] {
+    ParameterLearner::Settings settings = *day.chosen_.learner;
+    settings.priors[0] = {1.3, 0.005, 0.5, 2};  // and quite sure of it
+    return ParameterLearner(settings);
+  }();
+  wrong.save(path);
+  std::string text = [&] {
+    std::ifstream file(path);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }();
+  text.replace(text.find("updates: 0"), 10, "updates: 3");
+  std::ofstream(path) << text;
+  engine.learner()->load(path);
+  const ForecastJob first = day.after(engine, 1);
+  EXPECT_NEAR(first.median.friction_velocity, 1.3, 1e-3);
+  const ForecastJob job = day.after(engine, 6);
+  EXPECT_FALSE(engine.believes());
+  EXPECT_EQ(job.median.values(), UncertainParameters{}.values());
+  EXPECT_EQ(job.members.front().values(), ParameterLearner(*day.chosen_.learner).members().front().values());
 }
 
 TEST(ForecastEngine, NothingIsLearnedFromAMapThatComesTooLate) {
