@@ -6,13 +6,13 @@
 #include <QElapsedTimer>
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "../own_master.hpp"
 #include "aeolian_rviz/height_map_display.hpp"
 #include "child_process.hpp"
+#include "own_screen.hpp"
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <rviz/display_group.h>
@@ -23,8 +23,6 @@
 #include <rviz/visualization_frame.h>
 #include <rviz/visualization_manager.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "aeolian_core/surface/submap.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
@@ -168,18 +166,6 @@ int draw_all(bool smooth) {
   return 0;
 }
 
-/// This program once more, with other arguments.
-int run_self(const char* argument, const char* value) {
-  const pid_t child = fork();
-  if (child == 0) {
-    execl("/proc/self/exe", "height_map_display_bench", argument, value, nullptr);
-    _exit(127);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status;
-}
-
 }  // namespace
 }  // namespace aeolian
 
@@ -188,19 +174,13 @@ int main(int argc, char** argv) {
   const std::string task = argc == 3 ? argv[1] : "";
   if (task == "--publish") publish(cases.at(std::stoul(argv[2])));
   if (task == "--draw") return draw_all(std::string(argv[2]) == "smooth");
-  if (!std::getenv("DISPLAY")) {
-    execlp("xvfb-run", "xvfb-run", "-a", "-s", "-screen 0 1400x900x24 +extension GLX -nolisten tcp", argv[0],
-           nullptr);
-    std::perror("height_map_display_bench: no DISPLAY and no xvfb-run");
-    return 1;
-  }
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  if (!bench::has_screen(argv)) return 1;
   const bench::OwnMaster master;
   fmt::print(
       "| cells | at 10 Hz | anti-aliasing | frames/s | maps/s | age of the map seen, median | worst | "
       "processor time of "
       "a frame | largest quad, pixels | triangles |\n|---|---|---|---|---|---|---|---|---|---|\n");
   std::fflush(stdout);
-  const int failed = run_self("--draw", "smooth") | run_self("--draw", "plain");
+  const int failed = bench::run_self({"--draw", "smooth"}) | bench::run_self({"--draw", "plain"});
   return failed == 0 ? 0 : 1;
 }

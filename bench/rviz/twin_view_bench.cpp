@@ -6,13 +6,13 @@
 #include <QElapsedTimer>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "../own_master.hpp"
 #include "aeolian_rviz/frame_clock.hpp"
 #include "child_process.hpp"
+#include "own_screen.hpp"
 #include <fmt/format.h>
 #include <grid_map_msgs/GridMap.h>
 #include <ros/ros.h>
@@ -21,8 +21,6 @@
 #include <rviz/visualization_frame.h>
 #include <rviz/visualization_manager.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "aeolian_core/twin/difference.hpp"
 #include "aeolian_core/twin/forecast.hpp"
@@ -149,35 +147,17 @@ int draw(const Case& c) {
   return 0;
 }
 
-/// This program once more, for one case.
-int run_self(std::size_t number) {
-  const pid_t child = fork();
-  if (child == 0) {
-    execl("/proc/self/exe", "twin_view_bench", std::to_string(number).c_str(), nullptr);
-    _exit(127);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status;
-}
-
 }  // namespace
 }  // namespace aeolian
 
 int main(int argc, char** argv) {
   using namespace aeolian;
   if (argc == 2) return draw(cases.at(std::stoul(argv[1])));
-  if (!std::getenv("DISPLAY")) {
-    execlp("xvfb-run", "xvfb-run", "-a", "-s", "-screen 0 1400x900x24 +extension GLX -nolisten tcp", argv[0],
-           nullptr);
-    std::perror("twin_view_bench: no DISPLAY and no xvfb-run");
-    return 1;
-  }
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  if (!bench::has_screen(argv)) return 1;
   const bench::OwnMaster master;
   fmt::print("| shown | frames/s | processor time of a frame |\n|---|---|---|\n");
   std::fflush(stdout);
   int failed = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) failed |= run_self(i);
+  for (std::size_t i = 0; i < cases.size(); ++i) failed |= bench::run_self({std::to_string(i)});
   return failed == 0 ? 0 : 1;
 }

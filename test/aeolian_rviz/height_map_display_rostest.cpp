@@ -1,10 +1,9 @@
 // rviz itself draws maps of 1000 x 1000 cells that come ten times a second, and the picture is looked at.
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 
-#include "aeolian_rviz/off_screen.hpp"
+#include "aeolian_rviz/rviz_off_screen.hpp"
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -64,31 +63,12 @@ Pixel middle_of(const Picture& picture, const CellRange& range) {
   return pixel_of(picture, (range.x0 + range.x1) / 2, (range.y0 + range.y1) / 2);
 }
 
-class HeightMapDisplayTest : public testing::Test {
+class HeightMapDisplayTest : public RvizOffScreen {
  protected:
+  HeightMapDisplayTest() { header_.frame_id = "map"; }
   static void SetUpTestSuite() {
-    if (!is_installed("Xvfb") || !is_installed("import") || !is_installed("rviz")) return;
-    screen_ = std::make_unique<OffScreen>(width, height);
-    if (!screen_->works()) return;
-    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    rviz_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{AEOLIAN_DEVEL "/env.sh", "rviz", "--fullscreen", "-d",
-                                 AEOLIAN_REPOSITORY "/test/aeolian_rviz/height_map_display.rviz"},
-        SIGTERM);
-  }
-  static void TearDownTestSuite() {
-    rviz_.reset();
-    screen_.reset();
-  }
-
-  void SetUp() override {
-    if (!rviz_) GTEST_SKIP() << "needs Xvfb, import (ImageMagick) and rviz";
-    header_.frame_id = "map";
-  }
-  void TearDown() override {
-    if (rviz_) {
-      EXPECT_TRUE(rviz_->lives());
-    }
+    open_rviz(width, height,
+              {"--fullscreen", "-d", AEOLIAN_REPOSITORY "/test/aeolian_rviz/height_map_display.rviz"});
   }
 
   /// Publishes ten times a second until the picture is as it should be.
@@ -120,16 +100,12 @@ class HeightMapDisplayTest : public testing::Test {
            << ", patch " << told(200, 800) << ", hole " << told(800, 200) << ", outside " << told(-100, 500);
   }
 
-  static std::unique_ptr<OffScreen> screen_;
-  static std::unique_ptr<ChildProcess> rviz_;
   ros::NodeHandle nh_;
   ros::Publisher whole_ = nh_.advertise<grid_map_msgs::GridMap>("height_map", 1, /*latch=*/true);
   ros::Publisher parts_ = nh_.advertise<grid_map_msgs::GridMap>("height_map_updates", 10);
   ros::Publisher forecast_ = nh_.advertise<grid_map_msgs::GridMap>("forecast", 1, /*latch=*/true);
   std_msgs::Header header_;
 };
-std::unique_ptr<OffScreen> HeightMapDisplayTest::screen_;
-std::unique_ptr<ChildProcess> HeightMapDisplayTest::rviz_;
 
 TEST_F(HeightMapDisplayTest, ShowsTheSignOfTheDifferenceAndTheHole) {
   EXPECT_TRUE(shows(world(), [](const Picture& p) {

@@ -3,11 +3,10 @@
 #include <QSlider>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "aeolian_rviz/horizon_panel.hpp"
-#include "aeolian_rviz/off_screen.hpp"
+#include "aeolian_rviz/rviz_off_screen.hpp"
 #include <grid_map_msgs/GridMap.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -66,25 +65,9 @@ HeightMap::Layer halves(float west, float east) {
   return result;
 }
 
-class TwinViewTest : public testing::Test {
+class TwinViewTest : public RvizOffScreen {
  protected:
-  static void SetUpTestSuite() {
-    if (!is_installed("Xvfb") || !is_installed("import") || !is_installed("rviz")) return;
-    screen_ = std::make_unique<OffScreen>(width, height);
-    if (!screen_->works()) return;
-    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    rviz_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{AEOLIAN_DEVEL "/env.sh", "rviz", "-d", AEOLIAN_REPOSITORY "/rviz/twin.rviz"},
-        SIGTERM);
-  }
-  static void TearDownTestSuite() {
-    rviz_.reset();
-    screen_.reset();
-  }
-
-  void SetUp() override {
-    if (!rviz_) GTEST_SKIP() << "needs Xvfb, import (ImageMagick) and rviz";
-  }
+  static void SetUpTestSuite() { open_rviz(width, height, {"-d", AEOLIAN_REPOSITORY "/rviz/twin.rviz"}); }
 
   static void send(const ros::Publisher& to, const HeightMap& map, double stamp) {
     std_msgs::Header header;
@@ -129,15 +112,11 @@ class TwinViewTest : public testing::Test {
            << uncertainty.count(picture, is_yellow) << " pixels";
   }
 
-  static std::unique_ptr<OffScreen> screen_;
-  static std::unique_ptr<ChildProcess> rviz_;
   ros::NodeHandle nh_;
   ros::Publisher map_ = nh_.advertise<grid_map_msgs::GridMap>("height_map", 1, /*latch=*/true);
   ros::Publisher forecast_ = nh_.advertise<grid_map_msgs::GridMap>("forecast", 10);
   ros::Publisher difference_ = nh_.advertise<grid_map_msgs::GridMap>("difference", 10);
 };
-std::unique_ptr<OffScreen> TwinViewTest::screen_;
-std::unique_ptr<ChildProcess> TwinViewTest::rviz_;
 
 TEST_F(TwinViewTest, ShowsFourMapsWithCrestsAndFollowsTheSlider) {
   // Flat now, ripples ahead, and no ensemble.
@@ -178,7 +157,6 @@ TEST_F(TwinViewTest, ShowsFourMapsWithCrestsAndFollowsTheSlider) {
   EXPECT_TRUE(shows([&] { send(map_, ripples(0.006F), 1001); },
                     [](const Picture& p) { return measured.count(p, is_crest) > enough; }))
       << "the wind has come";
-  EXPECT_TRUE(rviz_->lives());
 }
 
 }  // namespace

@@ -168,6 +168,29 @@ TEST_F(SurfaceDisplayTest, TheTitleSaysThatNoValuesAreGiven) {
   EXPECT_FALSE(meshes.messages.back()->markers[0].points.empty());
 }
 
+TEST_F(SurfaceDisplayTest, ColoursAreThoseOfAnotherDisplayWhereWanted) {
+  const ros::Publisher other = nh_.advertise<grid_map_msgs::GridMap>("follower/map", 10);
+  Listener<visualization_msgs::MarkerArray> leaders(nh_, "mesh");
+  Listener<visualization_msgs::MarkerArray> followers(nh_, "follower/mesh");
+  ASSERT_TRUE(wait_until(
+      [&] { return leaders.connected() && followers.connected() && other.getNumSubscribers() == 1; }));
+  const auto values = [](const Listener<visualization_msgs::MarkerArray>& meshes) {
+    std::vector<std::string> words;
+    if (!meshes.messages.empty() && meshes.messages.back()->markers.size() == 6)
+      for (std::size_t i = 3; i < 6; ++i) words.push_back(meshes.messages.back()->markers[i].text);
+    return words;
+  };
+  send(other, ripples(0.02), 400);
+  ASSERT_TRUE(wait_until([&] { return !values(followers).empty(); }));
+  for (const double height : {0.01, 0.014}) {
+    const auto before = values(leaders);
+    send(whole_, ripples(height), 401 + height);
+    ASSERT_TRUE(wait_until([&] { return !values(leaders).empty() && values(leaders) != before; }));
+    EXPECT_TRUE(wait_until([&] { return values(followers) == values(leaders); }))
+        << values(followers).back() << " is not " << values(leaders).back();
+  }
+}
+
 }  // namespace
 }  // namespace aeolian
 

@@ -11,6 +11,7 @@
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/round_length.hpp"
 
 namespace aeolian {
 namespace {
@@ -37,32 +38,10 @@ void draw_text(cv::Mat& picture, const std::string& text, cv::Point at, Align al
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, ink, 1, cv::LINE_AA);
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `limit`.
-double round_below(double limit) {
-  const double power = std::pow(10, std::floor(std::log10(limit) + 1e-9));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= limit * (1 + 1e-9)) return digit * power;
-  return power;
-}
-
 std::string number(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", decimals,
                 std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0.0 : value);
-  return text;
-}
-
-/// A length with the unit that suits it, in three digits.
-std::string length_text(double metres) {
-  char text[64];
-  if (metres >= 1000)
-    std::snprintf(text, sizeof(text), "%.3g km", metres / 1000);
-  else if (metres >= 1)
-    std::snprintf(text, sizeof(text), "%.3g m", metres);
-  else if (metres >= 0.01)
-    std::snprintf(text, sizeof(text), "%.3g cm", metres * 100);
-  else
-    std::snprintf(text, sizeof(text), "%.3g mm", metres * 1000);
   return text;
 }
 
@@ -168,7 +147,7 @@ void draw_scale_bar(cv::Mat& picture, const Layout& layout, const GridGeometry& 
   const cv::Rect bar(margin, layout.map.y + layout.map.height + 14, width, 7);
   cv::rectangle(picture, bar, ink, 1);
   cv::rectangle(picture, {bar.x, bar.y, bar.width / 2, bar.height}, ink, cv::FILLED);
-  draw_text(picture, length_text(length), {bar.x, bar.y + bar.height + text_height + 4});
+  draw_text(picture, round_length_text(length), {bar.x, bar.y + bar.height + text_height + 4});
   const cv::Point tip(bar.x + bar.width + 28, bar.y - 3);
   const std::vector<cv::Point> head{tip, tip + cv::Point(-5, 14), tip + cv::Point(0, 11),
                                     tip + cv::Point(5, 14)};

@@ -7,6 +7,7 @@
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/surface/round_length.hpp"
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_twin/erosion/erosion_files.hpp"
 
@@ -28,13 +29,6 @@ constexpr Kind hard{"hard ground", {128, 128, 132}};
 constexpr Kind loose_sand{"loose sand", {222, 184, 130}};
 constexpr Kind loose_snow{"loose snow", {245, 245, 248}};
 constexpr Kind sintered_snow{"sintered snow", {140, 178, 214}};
-
-/// A round length of about a fifth of another.
-double round_length(double length) {
-  const double power = std::pow(10, std::floor(std::log10(length / 5)));
-  const double part = length / 5 / power;
-  return power * (part >= 5 ? 5 : part >= 2 ? 2 : 1);
-}
 
 void write(cv::Mat& picture, const std::string& text, cv::Point at, double size) {
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, ink, 1, cv::LINE_AA);
@@ -97,12 +91,11 @@ void draw_surface(const HeightMap& map, const Grain& grain, bool snow, const std
     x += 150;
   }
   if (hilly) write(picture, fmt::format("contours every {:.3g} m", relief / contours), {x, 47}, 0.45);
-  const double length = round_length(g.length_x());
+  const double length = round_below(g.length_x() / 5);
   const int bar = static_cast<int>(length / g.cell() * scale);
   const int y = picture.rows - 14;
   cv::line(picture, {8, y}, {8 + bar, y}, ink, 3);
-  write(picture, length < 1 ? fmt::format("{:g} cm", 100 * length) : fmt::format("{:g} m", length),
-        {16 + bar, y + 5}, 0.45);
+  write(picture, round_length_text(length), {16 + bar, y + 5}, 0.45);
   write_atomically(path, [&](const std::string& temporary) {
     if (!cv::imwrite(temporary, picture)) throw Error("'" + path + "' cannot be written");
   });

@@ -11,6 +11,7 @@
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 #include "aeolian_twin/nodes/relative_clock.hpp"
+#include "aeolian_twin/nodes/score_output.hpp"
 #include "aeolian_twin/nodes/settings.hpp"
 
 namespace aeolian {
@@ -84,24 +85,13 @@ class Comparator : public Node {
   }
 
   void publish(std::vector<ForecastScorer::Score> scores) {
-    for (ForecastScorer::Score& score : scores) {
-      const ros::Time time = clock_.stamp(score.time);
-      if (!score.refused.empty()) {
-        bad("forecast", fmt::format("a forecast for {}.{:09}: {}", time.sec, time.nsec, score.refused));
-        continue;
-      }
-      std_msgs::Header header;
-      header.frame_id = parameters().text("frame_id");
-      header.stamp = time;
-      comparison_publisher_.publish(to_message(score.comparison, header, clock_.stamp(score.issued)));
-      header.stamp = clock_.stamp(score.measured_time);
-      difference_publisher_.publish(to_message(score.difference, header));
-      scorer_->reuse(std::move(score.difference));
-      good("forecast", fmt::format("the last one, {:.0f} s ahead, has an RMSE of {:.3g} mm and a skill of "
-                                   "{:.2f} against persistence",
-                                   score.time - score.issued, 1e3 * score.comparison.rmse,
-                                   score.comparison.skill_persistence));
-    }
+    put_out(std::move(scores), *scorer_,
+            {parameters().text("frame_id"), clock_,
+             [this](const aeolian_msgs::Comparison& message) { comparison_publisher_.publish(message); },
+             [this](const grid_map_msgs::GridMap& message) { difference_publisher_.publish(message); },
+             [this](const std::string& thing, bool well, const std::string& line) {
+               well ? good(thing, line) : bad(thing, line);
+             }});
   }
 
   std::unique_ptr<ForecastScorer> scorer_;

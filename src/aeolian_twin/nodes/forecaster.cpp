@@ -14,6 +14,7 @@
 #include "aeolian_twin/nodes/engine_settings.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/wind_words.hpp"
 
 namespace aeolian {
 
@@ -38,11 +39,8 @@ class Forecaster : public Node {
   };
 
   void start() override {
-    const Tell tell = [this](const std::string& thing, bool well, const std::string& line) {
-      well ? good(thing, line) : bad(thing, line);
-    };
-    engine_ = std::make_unique<ForecastEngine>(read_engine(parameters(), tell));
-    prepare_engine(parameters(), *engine_, tell);
+    engine_ = std::make_unique<ForecastEngine>(read_engine(parameters(), tell_));
+    prepare_engine(parameters(), *engine_, tell_);
     const auto horizons = static_cast<std::uint32_t>(engine_->settings().horizons.size());
     publisher_ = nh().advertise<grid_map_msgs::GridMap>("forecast", horizons + 10);
     wind_subscriber_ = nh().subscribe("wind_field", 1000, &Forecaster::take_wind, this);
@@ -100,33 +98,12 @@ class Forecaster : public Node {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       ForecastEngine::Taken taken = engine_->take_map(map, header.stamp.toSec());
-      say(taken, header.stamp);
+      tell_of_wind(taken, engine_->settings(), header.stamp, tell_);
       if (taken.learned) publish(*taken.learned, header);
       if (taken.job) submit({std::move(*taken.job), header});
     }
     wake_.notify_one();
     good("map", "in use");
-  }
-
-  /// What the wind of a forecast is made of.
-  void say(const ForecastEngine::Taken& taken, const ros::Time& stamp) {
-    const ForecastEngine::Settings& settings = engine_->settings();
-    if (taken.without_wind)
-      bad("wind", fmt::format("no wind in the {} s before the map at {}.{:09}: no forecast",
-                              settings.wind.window, stamp.sec, stamp.nsec));
-    if (!taken.job) return;
-    const WindSpell& first = taken.job->wind.front();
-    if (taken.bridged_gap)
-      bad("wind", fmt::format("a gap of {:.1f} s in the wind is bridged with the mean of the rest",
-                              *taken.bridged_gap));
-    else if (!first.ahead)
-      good("wind", fmt::format("{} readings in the last {} s", first.samples.size(), settings.wind.window));
-    if (taken.not_given_ahead)
-      bad("wind ahead", fmt::format("is late or too short: {:.0f} s of {:.0f} are not given and are bridged "
-                                    "with the wind so far",
-                                    *taken.not_given_ahead, settings.horizons.back()));
-    else if (first.ahead)
-      good("wind ahead", "in use");
   }
 
   void publish(const ParameterLearner::Update& update, const std_msgs::Header& header) {
@@ -204,6 +181,9 @@ class Forecaster : public Node {
     }
   }
 
+  const Tell tell_ = [this](const std::string& thing, bool well, const std::string& line) {
+    well ? good(thing, line) : bad(thing, line);
+  };
   ros::Time last_map_;
   ros::Publisher publisher_;
   ros::Publisher learned_publisher_;

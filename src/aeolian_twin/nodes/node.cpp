@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_twin/nodes/frame_check.hpp"
 
 namespace aeolian {
 namespace {
@@ -70,9 +71,7 @@ void Node::bad(const std::string& thing, const std::string& line) {
 }
 
 void Node::require_frame(const std::string& topic, const std_msgs::Header& header) const {
-  const std::string& frame = parameters_->text("frame_id");
-  if (header.frame_id != frame)
-    throw Error(fmt::format("{}: frame is '{}', must be '{}' (~frame_id)", topic, header.frame_id, frame));
+  aeolian::require_frame(topic, header, *parameters_);
 }
 
 }  // namespace aeolian

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <std_msgs/Float64MultiArray.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "aeolian_core/surface/error.hpp"
@@ -47,6 +48,11 @@ class SurfaceDisplay : public Node {
     look_.range = {parameters().number("range_low"), parameters().number("range_high")};
     if (look_.range.low > look_.range.high) parameters().refuse("range_low", "at most range_high");
     chooses_range_ = look_.range.low == look_.range.high;
+    const std::string& other = parameters().text("range_topic");
+    if (chooses_range_ && other.empty())
+      range_publisher_ = nh().advertise<std_msgs::Float64MultiArray>("range", 1, /*latch=*/true);
+    else if (chooses_range_)
+      range_subscriber_ = nh().subscribe(other, 1, &SurfaceDisplay::take_range, this);
     if (parameters().numbers("offset").size() != 3) parameters().refuse("offset", "a list of three numbers");
     centred_ = parameters().flag("centred");
     look_.shaded = parameters().flag("shaded");
@@ -88,10 +94,27 @@ class SurfaceDisplay : public Node {
     }
     since_range_ = another ? changed.count() : since_range_ + changed.count();
     if (changed.empty()) return;
-    if (cloud_publisher_.getNumSubscribers() > 0) show([this] { cloud_publisher_.publish(draw_cloud()); });
-    if (mesh_publisher_.getNumSubscribers() > 0) show([this] { mesh_publisher_.publish(draw_mesh()); });
+    show_to_lookers();
     crests_->note_change();
     wind_->note_change();
+  }
+
+  void take_range(const std_msgs::Float64MultiArray::ConstPtr& message) {
+    const auto& ends = message->data;
+    if (ends.size() != 2 || !(ends[0] <= ends[1])) {
+      bad("range",
+          fmt::format("{}: must be two numbers, the first at most the second", range_subscriber_.getTopic()));
+      return;
+    }
+    good("range", "as " + range_subscriber_.getTopic());
+    chooses_range_ = false;
+    look_.range = {ends[0], ends[1]};
+    show_to_lookers();
+  }
+
+  void show_to_lookers() {
+    if (cloud_publisher_.getNumSubscribers() > 0) show([this] { cloud_publisher_.publish(draw_cloud()); });
+    if (mesh_publisher_.getNumSubscribers() > 0) show([this] { mesh_publisher_.publish(draw_mesh()); });
   }
 
   template <class Publish>
@@ -182,8 +205,16 @@ class SurfaceDisplay : public Node {
     if (chooses_range_ && since_range_ >= all.tiles_x() * all.tiles_y()) {
       look_.range = display_range(layers.values, look_.palette);
       since_range_ = 0;
+      tell_range();
     }
     return layers;
+  }
+
+  void tell_range() const {
+    if (!range_publisher_) return;
+    std_msgs::Float64MultiArray message;
+    message.data = {look_.range.low, look_.range.high};
+    range_publisher_.publish(message);
   }
 
   std::array<double, 3> offset() const {
@@ -224,6 +255,8 @@ class SurfaceDisplay : public Node {
   DrawnCloud cloud_;
   std::optional<DrawnMesh> mesh_;
   ros::Publisher cloud_publisher_;
+  ros::Publisher range_publisher_;
+  ros::Subscriber range_subscriber_;
   ros::Publisher mesh_publisher_;
   visualization_msgs::MarkerArray unknown_;
   std::unique_ptr<WindDrawing<visualization_msgs::Marker>> crests_;
@@ -236,10 +269,11 @@ NodeDescription describe_surface_display() {
       "surface_display",
       "shows any grid map in a stock rviz",
       {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed",
-       "wind_field (grid_map_msgs/GridMap): while somebody looks at its arrows, or at crests, which lie "
-       "across "
-       "it"},
+       "wind_field (grid_map_msgs/GridMap): while somebody looks at crests, which lie across it, or at its "
+       "arrows"},
       {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
+       "range (std_msgs/Float64MultiArray, latched): the values of the first and last colour, where the map "
+       "chooses them",
        "mesh (visualization_msgs/MarkerArray): shaded surface, title, colour bar",
        "crests (visualization_msgs/Marker): lines along the crests of ripples",
        "wind_arrows (visualization_msgs/MarkerArray): arrows and streamlines of the wind at the ground"},
@@ -256,6 +290,8 @@ NodeDescription describe_surface_display() {
           {"range_low", 0.0, "m", "value of the first colour; equal to range_high: chosen from the map",
            Limits::any()},
           {"range_high", 0.0, "m", "value of the last colour", Limits::any()},
+          {"range_topic", std::string(), "",
+           "range of another surface_display, so that both have the same colours; empty: its own"},
           {"shaded", true, "", "slopes are darker or brighter, as under a lamp in the north-west"},
           {"exaggeration", 3.0, "", "factor on the heights as drawn", Limits::positive()},
           {"offset", std::vector<double>{0, 0, 0}, "map lengths, map lengths, m",

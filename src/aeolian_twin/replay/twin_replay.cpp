@@ -10,6 +10,9 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/engine_settings.hpp"
+#include "aeolian_twin/nodes/frame_check.hpp"
+#include "aeolian_twin/nodes/score_output.hpp"
+#include "aeolian_twin/nodes/wind_words.hpp"
 
 namespace aeolian {
 namespace {
@@ -112,7 +115,7 @@ void TwinReplay::take_content(const geometry_msgs::TwistStampedConstPtr& wind) {
   const ros::Time& stamp = message->info.header.stamp;
   const WindField felt = to_wind_field(*message);
   try {
-    require_frame(config_.forecaster, message->info.header);
+    require_frame("/wind_field", message->info.header, config_.forecaster);
     engine_.take_wind({stamp.toSec(), felt.friction_velocity, felt.direction, felt.air_density});
   } catch (const Error& error) {
     tell(forecaster)("wind", false, error.what());
@@ -122,7 +125,7 @@ void TwinReplay::take_content(const geometry_msgs::TwistStampedConstPtr& wind) {
 
 void TwinReplay::take_content(const aeolian_msgs::WindAheadConstPtr& ahead) {
   try {
-    require_frame(config_.forecaster, ahead->header);
+    require_frame(config_.topics.wind_ahead, ahead->header, config_.forecaster);
     engine_.give_wind_ahead(to_wind_samples(*ahead, bed_roughness(config_.forecaster)));
   } catch (const Error& error) {
     tell(forecaster)("wind ahead", false, error.what());
@@ -150,7 +153,7 @@ void TwinReplay::publish_map() {
   ++maps_;
   write("/height_map", now_, message);
   try {
-    require_frame(config_.wind_estimator, message->info.header);
+    require_frame("/height_map", message->info.header, config_.wind_estimator);
     wind_.take_map(*message);
   } catch (const Error& error) {
     tell(estimator)("map", false, error.what());
@@ -164,7 +167,7 @@ void TwinReplay::take_map(const GridMap& message) {
   deliver_forecasts_due(header.stamp);
   const auto map = std::make_shared<const HeightMap>(to_height_map(message));
   try {
-    require_frame(config_.comparator, header);
+    require_frame("/height_map", header, config_.comparator);
     ForecastScorer::Taken taken = scorer_.take_map(map, clock_.seconds(header.stamp));
     if (taken.begun_anew)
       tell(comparator)("clock", false,
@@ -175,9 +178,9 @@ void TwinReplay::take_map(const GridMap& message) {
     tell(comparator)("map", false, error.what());
   }
   try {
-    require_frame(config_.forecaster, header);
+    require_frame("/height_map", header, config_.forecaster);
     ForecastEngine::Taken taken = engine_.take_map(*map, header.stamp.toSec());
-    say(taken, header);
+    tell_of_wind(taken, engine_.settings(), header.stamp, tell(forecaster));
     if (taken.learned) {
       lessons_ += taken.learned->learned ? 1 : 0;
       write("/learned", now_, shared(to_message(engine_.learner()->state(), *taken.learned, header)));
@@ -186,22 +189,6 @@ void TwinReplay::take_map(const GridMap& message) {
   } catch (const Error& error) {
     tell(forecaster)("map", false, error.what());
   }
-}
-
-/// What is amiss with the wind of a forecast.
-void TwinReplay::say(const ForecastEngine::Taken& taken, const std_msgs::Header& header) {
-  if (taken.without_wind)
-    tell(forecaster)("wind", false,
-                     fmt::format("there is none in the {} s before the map at {}.{:09}: no forecast",
-                                 engine_.settings().wind.window, header.stamp.sec, header.stamp.nsec));
-  if (taken.bridged_gap)
-    tell(forecaster)(
-        "wind", false,
-        fmt::format("a gap of {:.1f} s is bridged with the mean of the rest", *taken.bridged_gap));
-  if (taken.not_given_ahead)
-    tell(forecaster)("wind ahead", false,
-                     fmt::format("{:.0f} s of {:.0f} are not given and are bridged with the wind so far",
-                                 *taken.not_given_ahead, engine_.settings().horizons.back()));
 }
 
 void TwinReplay::forecast(ForecastJob job, const std_msgs::Header& header) {
@@ -244,28 +231,12 @@ void TwinReplay::deliver_first() {
 }
 
 void TwinReplay::publish(std::vector<ForecastScorer::Score> scores) {
-  for (ForecastScorer::Score& score : scores) {
-    std_msgs::Header header;
-    header.frame_id = config_.comparator.text("frame_id");
-    header.stamp = clock_.stamp(score.time);
-    if (!score.refused.empty()) {
-      tell(comparator)(
-          "forecast", false,
-          fmt::format("a forecast for {}.{:09}: {}", header.stamp.sec, header.stamp.nsec, score.refused));
-      continue;
-    }
-    write("/comparison", now_, shared(to_message(score.comparison, header, clock_.stamp(score.issued))));
-    header.stamp = clock_.stamp(score.measured_time);
-    write("/difference", now_, shared(to_message(score.difference, header)));
-    scorer_.reuse(std::move(score.difference));
-    tell(comparator)("forecast", true, "scored");
-  }
-}
-
-void TwinReplay::require_frame(const Parameters& node, const std_msgs::Header& header) const {
-  const std::string& frame = node.text("frame_id");
-  if (header.frame_id != frame)
-    throw Error(fmt::format("frame is '{}', must be '{}' (frame_id)", header.frame_id, frame));
+  put_out(
+      std::move(scores), scorer_,
+      {config_.comparator.text("frame_id"), clock_,
+       [this](aeolian_msgs::Comparison message) { write("/comparison", now_, shared(std::move(message))); },
+       [this](GridMap message) { write("/difference", now_, shared(std::move(message))); },
+       tell(comparator)});
 }
 
 }  // namespace aeolian

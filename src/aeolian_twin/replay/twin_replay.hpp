@@ -67,11 +67,9 @@ class TwinReplay {
   void publish_bed(const Eigen::Isometry3d& bed);
   void take_map(const GridMap& message);
   void forecast(ForecastJob job, const std_msgs::Header& header);
-  void say(const ForecastEngine::Taken& taken, const std_msgs::Header& header);
   void deliver_forecasts_due(const ros::Time& map);
   void deliver_first();
   void publish(std::vector<ForecastScorer::Score> scores);
-  void require_frame(const Parameters& node, const std_msgs::Header& header) const;
 
   Tell tell(const std::string& node);
   std::string complaints() const;

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/round_length.hpp"
 #include "aeolian_core/surface/shading.hpp"
 #include "aeolian_twin/photo/canvas.hpp"
 #include "aeolian_twin/slide/slide_files.hpp"
@@ -97,14 +98,11 @@ void draw_ground(cv::Mat& picture, const View& view, const SlideScene& scene, in
 
 /// A tenth of the picture or so, in round numbers.
 void draw_scale_bar(cv::Mat& picture, const View& view, int offset) {
-  const double most = 0.2 * (view.right - view.left);
-  const double power = std::pow(10, std::floor(std::log10(most)));
-  const double length = power * (most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1);
+  const double length = round_below(0.2 * (view.right - view.left));
   Canvas canvas(picture, 1);
   const double right = width - margin, left = right - length * view.scale;
   canvas.stroke(left, offset + 47, right, offset + 47, 2, dark);
-  const std::string words = length < 1 ? fmt::format("{:g} cm", 100 * length) : fmt::format("{:g} m", length);
-  canvas.text(left, offset + 38, 13, false, dark, words);
+  canvas.text(left, offset + 38, 13, false, dark, round_length_text(length));
 }
 
 template <int Dim>

@@ -8,6 +8,8 @@
 #include <cairo/cairo.h>
 #include <fmt/format.h>
 
+#include "aeolian_core/surface/round_length.hpp"
+
 namespace aeolian {
 namespace {
 
@@ -49,18 +51,6 @@ struct SpeedScale {
 
 SpeedScale speed_scale(const Film& film) {
   return {0.03 * std::sqrt(2 * gravity * film.diameter), film.shot.speed};
-}
-
-/// 1, 2 or 5 times a power of ten, at most `largest`.
-double round_length(double largest) {
-  const double power = std::pow(10, std::floor(std::log10(largest)));
-  const double first = largest / power;
-  return power * (first >= 5 ? 5 : first >= 2 ? 2 : 1);
-}
-
-std::string length_text(double metres) {
-  if (metres >= 0.01) return fmt::format("{:g} cm", 100 * metres);
-  return fmt::format("{:g} mm", 1000 * metres);
 }
 
 std::string time_text(double seconds) { return fmt::format("{:.1f} ms", 1000 * seconds + 0.0); }
@@ -191,10 +181,10 @@ cv::Mat ImpactPicture::draw(std::size_t index) const {
   drawing.text(28 * unit, 54 * unit, 34 * unit, true, ink, time_text(frame.time));
   drawing.text(28 * unit, 86 * unit, 19 * unit, false, soft, title_, 0, width_ - 56 * unit);
 
-  const double bar = round_length(0.2 * width_ / scale_);
+  const double bar = round_below(0.2 * width_ / scale_);
   const double y = 0.5 * (floor + height_);
   drawing.line(28 * unit, y, 28 * unit + scale_ * bar, y, 4 * unit, ink);
-  drawing.text(44 * unit + scale_ * bar, y + 6 * unit, 19 * unit, false, ink, length_text(bar));
+  drawing.text(44 * unit + scale_ * bar, y + 6 * unit, 19 * unit, false, ink, round_length_text(bar));
 
   const double right = width_ - 28 * unit;
   const double from = right - 330 * unit;
