@@ -269,9 +269,8 @@ NodeDescription describe_surface_display() {
       "surface_display",
       "shows any grid map in a stock rviz",
       {"map (grid_map_msgs/GridMap), map_updates (grid_map_msgs/GridMap): parts of it that have changed",
-       "wind_field (grid_map_msgs/GridMap): while somebody looks at its arrows, or at crests, which lie "
-       "across "
-       "it"},
+       "wind_field (grid_map_msgs/GridMap): while somebody looks at crests, which lie across it, or at its "
+       "arrows"},
       {"cloud (sensor_msgs/PointCloud2): x, y, z, rgb for each known cell",
        "range (std_msgs/Float64MultiArray, latched): the values of the first and last colour, where the map "
        "chooses them",
