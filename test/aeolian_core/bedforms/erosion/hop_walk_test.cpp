@@ -53,7 +53,8 @@ TEST(WalkHop, a_cliff_elsewhere_changes_nothing) {
       const HopEnd a = walk_hop(level, table, wind, x, y, v);
       const HopEnd b = walk_hop(cliff, table, wind, x, y, v);
       ASSERT_EQ(a.outside, b.outside);
-      ASSERT_NEAR(a.way, b.way, 0.01F + 0.02F * a.way) << n;  // an arc's end between two samples
+      if (a.outside) continue;  // how far beyond the border does not matter
+      ASSERT_NEAR(a.way, b.way, 0.01F + 0.02F * a.way) << n;
     }
   }
 }
