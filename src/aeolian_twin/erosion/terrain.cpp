@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +13,8 @@
 namespace aeolian {
 
 const std::vector<std::string>& terrain_names() {
-  static const std::vector<std::string> names{"flat",   "hump",   "steep_hump", "dune",
-                                              "valley", "stakes", "step"};
+  static const std::vector<std::string> names{"flat",   "hump", "steep_hump", "dune", "valley",
+                                              "stakes", "step", "crags",      "crags"};
   return names;
 }
 
@@ -25,6 +26,14 @@ HeightMap hard_terrain(const std::string& name, const GridGeometry& g) {
   const auto gaussian = [&](double x, double y, double width, double height) {
     const double r = std::hypot(x - 0.5 * g.length_x(), y - 0.5 * g.length_y()) / (width * length);
     return height * length * std::exp(-0.5 * r * r);
+  };
+  const auto crag = [&](double x, double y) {
+    double z = 0;
+    for (const auto& [east, north] : {std::pair{0.2, 0.25}, {0.35, 0.7}, {0.6, 0.4}}) {
+      const double r = std::hypot(x - east * g.length_x(), y - north * g.length_y()) / (0.025 * length);
+      z = std::max(z, 0.018 * length * std::exp(-0.5 * r * r));
+    }
+    return z;
   };
   HeightMap map(g);
   HeightMap::Layer& ground = map.add(layer::ground, 0);
@@ -38,6 +47,7 @@ HeightMap hard_terrain(const std::string& name, const GridGeometry& g) {
       if (name == "dune") z = gaussian(x, y, 0.25, 0.08);
       if (name == "valley") z = 0.015 * length * (1 - std::cos(2 * M_PI * y / g.length_y()));
       if (name == "step") z = x < 0.5 * length ? 0 : 0.05 * length;
+      if (name == "crags") z = crag(x, y);
       if (name == "stakes" && ix * 4 % g.nx() < 8 && iy * 4 % g.ny() < 8 && ix * 4 >= g.nx() &&
           iy * 4 >= g.ny())
         z = 0.1 * length;

@@ -13,7 +13,8 @@ const std::vector<std::string>& terrain_names();
 /// Hard ground [m] of a name: flat; hump, steep_hump and dune, Gaussians of 0.15 lengths, 0.05, 0.15 and 0.08
 /// lengths high (the dune 0.25 wide); valley, a sine of 0.03 lengths across the wind (Szabo 2019, chapter 4;
 /// heights are the specification's); stakes, nine square posts of two cells; step, half of it 0.05 lengths
-/// higher. The valley and the step run along x and y. Throws Error for another name.
+/// higher; crags, three round rocks 0.018 lengths high. The valley and the step run along x and y. Throws
+/// Error for another name.
 HeightMap hard_terrain(const std::string& name, const GridGeometry& geometry);
 
 /// Adds the layer `elevation`: loose material on the layer `ground`, uneven by a grain's diameter [m]. With a

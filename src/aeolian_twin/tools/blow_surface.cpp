@@ -1,6 +1,7 @@
 // blow_surface: sand or snow blown over hard ground, forward in time.
 
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -89,8 +90,9 @@ void blow(const Options& o, const std::string& command) {
   make_directory(o.out);
   ProgressBar bar;
   const double duration = 60 * scene.minutes;
+  const std::unique_ptr<WindModel> wind = scene.wind_model();
   const ErosionHistory run = run_erosion(
-      map, model, scene.wind(), scene.grain(), duration, o.frames,
+      map, model, {*wind, scene.wind_input(), scene.terrain_wind}, scene.grain(), duration, o.frames,
       [&](const HeightMap& kept, int frame) {
         const double minutes = scene.minutes * frame / o.frames;
         const std::string title =

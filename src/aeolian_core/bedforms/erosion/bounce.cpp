@@ -21,8 +21,7 @@ BounceResult bounced(const Bounce& bounce, const Eigen::Vector3f& velocity, floa
   const float sine = speed > 0 ? std::min(towards / speed, 1.0F) : 1;
 
   const float restitution = 0.87F - 0.72F * sine;
-  if (bounce.push)
-    result.pushed = std::max(0.0F, 13 * (1 - restitution * restitution) * (speed / (40 * unit) - 1));
+  result.pushed = std::max(0.0F, 13 * (1 - restitution * restitution) * (speed / (40 * unit) - 1));
   if (bounce.law == BounceLaw::attenuated) {
     result.velocity = static_cast<float>(bounce.normal_kept) * towards * normal +
                       static_cast<float>(bounce.tangential_kept) * along;

@@ -82,6 +82,8 @@ Drift::Drift(const WindField& wind, const ErodibleBed& bed, const Grain& grain, 
   for (int n = 0; n < levels; ++n)
     most_launches_ =
         std::max(most_launches_, launches(tables_[static_cast<std::size_t>(n)].wind().friction_velocity));
+  mean_flux_ = uniform() ? flux(strongest_) : 0;
+  for (const Cell& c : cells_) mean_flux_ += flux(c.friction_velocity) / static_cast<double>(cells_.size());
 }
 
 /// Chains of hops over flat loose ground.

@@ -36,6 +36,7 @@ class Drift {
 
   /// Saturated flux of volume per width [m^2/s], with the pores of the bed.
   double flux(double friction_velocity) const;
+  double mean_flux() const { return mean_flux_; }  ///< over the cells
   /// Parcels that leave a flat cell [1/s].
   double launches(double friction_velocity) const;
   double most_launches() const { return most_launches_; }
@@ -49,7 +50,7 @@ class Drift {
   const ErosionParameters parameters_;
   Grain grain_;
   double parcel_, cell_area_;
-  double roughness_ = 0, threshold_ = 0, strongest_ = 0, most_launches_ = 0;
+  double roughness_ = 0, threshold_ = 0, strongest_ = 0, most_launches_ = 0, mean_flux_ = 0;
   Cell everywhere_{};
   std::vector<Cell> cells_;
   std::vector<float> shear_;

@@ -18,6 +18,11 @@ std::size_t tile_of(const TileMask& tiles, int ix, int iy) {
          static_cast<std::size_t>(ix / TileMask::tile_cells);
 }
 
+float last_place(int n, bool periodic) {
+  const auto count = static_cast<float>(n);
+  return periodic ? std::nextafter(count, 0.0F) : count - 1;
+}
+
 }  // namespace
 
 ErodibleBed::ErodibleBed(const HeightMap& map, double parcel, bool periodic)
@@ -25,6 +30,10 @@ ErodibleBed::ErodibleBed(const HeightMap& map, double parcel, bool periodic)
       periodic_(periodic),
       parcel_(parcel),
       unit_(parcel / parcel_units),
+      blocks_x_((geometry_.nx() + block_cells - 1) / block_cells),
+      blocks_y_((geometry_.ny() + block_cells - 1) / block_cells),
+      last_x_(last_place(geometry_.nx(), periodic)),
+      last_y_(last_place(geometry_.ny(), periodic)),
       base_(geometry_.size()),
       loose_(geometry_.size(), 0),
       sintered_(geometry_.size(), 0),
@@ -57,6 +66,8 @@ ErodibleBed::ErodibleBed(const HeightMap& map, double parcel, bool periodic)
   }
   covered_in_tile_.assign(
       static_cast<std::size_t>(changed_.tiles_x()) * static_cast<std::size_t>(changed_.tiles_y()), 0);
+  highest_of_block_.assign(static_cast<std::size_t>(blocks_x_ * blocks_y_),
+                           -std::numeric_limits<float>::infinity());
   highest_ = -std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < base_.size(); ++i) {
     const CellIndex c = geometry_.cell_at(i);
@@ -68,6 +79,7 @@ ErodibleBed::ErodibleBed(const HeightMap& map, double parcel, bool periodic)
 void ErodibleBed::show(CellIndex c, std::size_t cell) {
   const auto value = static_cast<float>(elevation(cell) - datum_);
   highest_ = std::max(highest_, value);
+  raise_blocks(c, value);
   const auto row = static_cast<std::size_t>(stride());
   float* at = &surface_[static_cast<std::size_t>(c.y) * row + static_cast<std::size_t>(c.x)];
   *at = value;
@@ -80,6 +92,23 @@ void ErodibleBed::show(CellIndex c, std::size_t cell) {
   if (pad_x) at[across] = value;
   if (pad_y) at[up] = value;
   if (pad_x && pad_y) at[up + across] = value;
+}
+
+/// The block of a cell, and those before it, whose last places lie between their own cells and this one.
+void ErodibleBed::raise_blocks(CellIndex c, float height) {
+  const int bx = c.x / block_cells;
+  const int by = c.y / block_cells;
+  const auto raise = [&](int x, int y) {
+    float& highest = highest_of_block_[static_cast<std::size_t>((y + blocks_y_) % blocks_y_ * blocks_x_ +
+                                                                (x + blocks_x_) % blocks_x_)];
+    highest = std::max(highest, height);
+  };
+  if (height > highest_of_block(bx, by)) raise(bx, by);
+  const bool first_x = c.x % block_cells == 0;
+  const bool first_y = c.y % block_cells == 0;
+  if (first_x) raise(bx - 1, by);
+  if (first_y) raise(bx, by - 1);
+  if (first_x && first_y) raise(bx - 1, by - 1);
 }
 
 void ErodibleBed::change(CellIndex c, std::size_t cell, std::int32_t loose, std::int32_t sintered) {

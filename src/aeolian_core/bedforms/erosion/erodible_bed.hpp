@@ -36,6 +36,14 @@ class ErodibleBed {
                     static_cast<std::size_t>(ix)];
   }
   float highest() const { return highest_; }  ///< no surface is above
+  /// No surface is above in a block of 8 x 8 cells, from their centres to those of the next blocks' first.
+  static constexpr int block_cells = 8;
+  float highest_of_block(int block_x, int block_y) const {
+    return highest_of_block_[static_cast<std::size_t>(block_y * blocks_x_ + block_x)];
+  }
+  /// The last places at which the surface can be looked up [cells].
+  float last_x() const { return last_x_; }
+  float last_y() const { return last_y_; }
 
   std::int32_t loose(std::size_t cell) const { return loose_[cell]; }
   std::int32_t sintered(std::size_t cell) const { return sintered_[cell]; }
@@ -74,18 +82,22 @@ class ErodibleBed {
  private:
   void change(CellIndex c, std::size_t cell, std::int32_t loose, std::int32_t sintered);
   void show(CellIndex c, std::size_t cell);
+  void raise_blocks(CellIndex c, float height);
 
   GridGeometry geometry_;
   bool periodic_;
   double parcel_, unit_;
+  int blocks_x_, blocks_y_;
   double datum_ = 0;
   std::int64_t ground_units_ = 0;  ///< that have become ground
   float highest_ = 0;
+  float last_x_, last_y_;
   std::vector<double> base_;  ///< elevation of the ground [m]
   std::vector<std::int32_t> loose_, sintered_;
   std::vector<std::uint8_t> hole_;
   std::vector<float> surface_;
   std::vector<int> covered_in_tile_;
+  std::vector<float> highest_of_block_;
   std::vector<std::uint8_t> dirty_;
   TileMask dirty_tiles_, changed_;
 };

@@ -133,6 +133,7 @@ void ErosionRun::hop_batch(std::uint64_t first, std::uint64_t last, bool inflow,
 }
 
 void ErosionRun::hop_round(double attempts, double seconds) {
+  const std::int64_t hops = counts_.hops;
   const auto follow_all = [&](std::uint64_t first, std::uint64_t count, bool inflow) {
     const auto batches = static_cast<std::size_t>((count + attempts_each - 1) / attempts_each);
     if (batches_.size() < batches) batches_.resize(batches);
@@ -161,6 +162,7 @@ void ErosionRun::hop_round(double attempts, double seconds) {
     entries_ += whole;
     balance_.inflow += static_cast<std::int64_t>(whole) * ErodibleBed::parcel_units;
   }
+  hopped_ = counts_.hops > hops;
   ++counts_.steps;
 }
 

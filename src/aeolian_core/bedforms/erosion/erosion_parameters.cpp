@@ -66,6 +66,8 @@ void check(const ErosionParameters& p) {
   if (p.snow) check(*p.snow);
   require(p.inflow >= 0 && p.inflow <= 10, "inflow", p.inflow, "0 to 10");
   require(p.shelter_angle >= 0.02 && p.shelter_angle <= 1, "shelter angle", p.shelter_angle, "0.02 to 1 rad");
+  require(p.impact_threshold > 0 && p.impact_threshold <= 1, "impact threshold", p.impact_threshold,
+          "above 0 to 1");
   require(p.cohesion >= 0 && p.cohesion <= 1, "cohesion", p.cohesion, "0 to 1 kg/s^2");
   require(p.roughness >= 0 && p.roughness <= 0.1, "roughness", p.roughness, "0 to 0.1 m");
   require(p.parcel_thickness >= 0 && p.parcel_thickness <= 0.1, "parcel thickness", p.parcel_thickness,
@@ -85,6 +87,7 @@ ErosionParameters thesis_erosion() {
   ErosionParameters p;
   p.shelter = Shelter::slope;
   p.slope_threshold = false;
+  p.impact_threshold = 1;
   p.spread = false;
   p.lift_off.lateral_spread = 0;
   p.pool = ErosionParameters::Pool{};

@@ -56,7 +56,9 @@ struct SnowBonding {
   double bonding_time = 24 * 3600;   ///< t_b, to full bonds at the reference temperature and colder [s]
   double reference = -20;            ///< [deg C]
   double activation_energy = 60000;  ///< of the Arrhenius law by which warmer snow bonds faster [J/mol]
-  double exponent = 0.18;            ///< degree = (age / t_b)^exponent (van Herwijnen & Miller 2013)
+  /// degree = (age / t_b)^exponent: what a bond holds goes with its area, twice the exponent 0.18 by which
+  /// the ratio of bond to grain grows (van Herwijnen & Miller 2013).
+  double exponent = 0.36;
   double fresh_cohesion = 4;         ///< gamma of fresh snow over that of sand
   double bonded_cohesion = 32;       ///< and of fully bonded snow
   double skin = 4;                   ///< thickness whose mean age is that of the surface [parcels]
@@ -74,6 +76,9 @@ struct ErosionParameters {
   Shelter shelter = Shelter::ray;
   double shelter_angle = 12 * M_PI / 180;
   bool slope_threshold = true;  ///< whether the threshold rises upslope and falls downslope
+  /// Threshold of loose grains where others hit them, over that of the wind alone (Bagnold 1941: 0.8; Schmidt
+  /// 1980 for snow). It holds while anything comes down.
+  double impact_threshold = 0.8;
   LiftOff lift_off;
   Bounce bounce;
   Atmosphere air{1.225, 1.5e-5, 9.81};

@@ -80,6 +80,7 @@ double ErosionRun::advance(double duration) {
 double ErosionRun::iterate(std::int64_t steps) {
   double time = 0;
   for (std::int64_t n = 0; n < steps; ++n) {
+    launcher_->set_impacts(parcels_.size() > 0);
     if (n % p_.slide_every == 0) launcher_->find_awake();
     const double passed = fly_step();
     let_snow_lie(passed, true);
@@ -91,11 +92,13 @@ double ErosionRun::iterate(std::int64_t steps) {
 
 /// Time [s] that lies behind, at most `left`: some steps or a round, or all of it where nothing can move.
 double ErosionRun::interval(double left) {
+  launcher_->set_impacts(hopped_ || parcels_.size() > 0);
   if (!snow_ || since_awake_++ % awake_every == 0 || !launcher_->anything_awake()) launcher_->find_awake();
   const bool enters = drift_->blows() && p_.border == Border::open && p_.inflow > 0;
   if (!launcher_->anything_awake() && !enters && parcels_.size() == 0) {
     const bool snows = snow_ && p_.snow->snowfall > 0;
     const double bulk = grain_.density * (1 - grain_.porosity);
+    hopped_ = false;
     const double time = snows ? std::min(left, bed_.parcel() * bulk / p_.snow->snowfall) : left;
     let_snow_lie(time, true);
     if (snows && drift_->blows()) settle_slopes(p_.slide_sweeps);
@@ -147,7 +150,7 @@ void ErosionRun::set_pace(double seconds) {
   double covered = 0;
   for (const int tile : launcher_->awake()) covered += bed_.covered_in_tile(static_cast<std::size_t>(tile));
   const double cell = bed_.geometry().cell();
-  const double due = drift_->flux(drift_->strongest()) * covered * cell * cell * seconds;
+  const double due = drift_->mean_flux() * covered * cell * cell * seconds;
   carried_ = remembered * carried_ + counts_.transported - counted_;
   due_ = remembered * due_ + due;
   counted_ = counts_.transported;
@@ -267,10 +270,21 @@ void ErosionRun::give(const Transfer& t, std::int32_t units) {
   balance_.outflow += t.outside ? units : Spread(bed_, t.to_x, t.to_y, p_.spread).give(bed_, units, settle);
 }
 
+/// Grains broken out of loose snow lie where they were, without bonds.
+void ErosionRun::stir(const Transfer& t) {
+  const std::int64_t cell = cell_near(bed_, t.from_x, t.from_y);
+  if (cell >= 0 && bed_.loose(static_cast<std::size_t>(cell)) > 0)
+    snow_->deposited(static_cast<std::size_t>(cell), t.units);
+}
+
 void ErosionRun::carry_out(const Transfers& transfers) {
   bool on_its_way = true;
   for (const Transfer& t : transfers) {
     std::int32_t units = t.units;
+    if (t.kind == Transfer::Kind::stirred) {
+      stir(t);
+      continue;
+    }
     if (t.kind == Transfer::Kind::settled) {
       on_its_way = true;
     } else if (t.kind == Transfer::Kind::lifted) {

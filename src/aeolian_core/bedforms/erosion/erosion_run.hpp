@@ -59,6 +59,7 @@ class ErosionRun {
   void fly_all();
   void hop_round(double attempts, double seconds);
   void hop_batch(std::uint64_t first, std::uint64_t last, bool inflow, Batch& batch) const;
+  void stir(const Transfer& transfer);
   void carry_out(const Transfers& transfers);
   void give(const Transfer& transfer, std::int32_t units);
   Launch entry(std::uint64_t number) const;
@@ -82,7 +83,8 @@ class ErosionRun {
   /// Time of the bed over what launches on a flat one would make of it, from what was carried lately over
   /// what the saturated flux would have carried [m^4].
   double pace_ = 1, carried_ = 0, due_ = 0, counted_ = 0;
-  double lying_ = 0;  ///< time that the snow has not been told of [s]
+  double lying_ = 0;     ///< time that the snow has not been told of [s]
+  bool hopped_ = false;  ///< whether anything came down in the last round
   int since_slides_ = 0;
   std::int64_t since_awake_ = 0;  ///< was last looked at: intervals
   ErosionCounts counts_;

@@ -37,7 +37,6 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
   // What changed may have become steep, or have made a neighbour so.
   const auto look_at = [&](int x, int y) {
     const std::size_t cell = g.index(x, y);
-    if (bed.loose(cell) <= 0) return;
     const float height = bed.height(x, y);
     float most = unit;
     std::uint8_t receivers = 0;
@@ -63,8 +62,16 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
         if (tiles.tile(tx, ty))
           for (const Offset o : around)
             near.set_tile(wrapped(tx + o.x, tiles.tiles_x()), wrapped(ty + o.y, tiles.tiles_y()));
+  const int nx = g.nx();
+  const int ny = g.ny();
   const auto is_near_dirty = [&](int x, int y) {
     if (dirty[g.index(x, y)]) return true;
+    if (x > 0 && y > 0 && x < nx - 1 && y < ny - 1) {
+      const std::uint8_t* at = &dirty[g.index(x, y)];
+      const std::uint8_t* south = at - nx;
+      const std::uint8_t* north = at + nx;
+      return (at[-1] | at[1] | south[-1] | south[0] | south[1] | north[-1] | north[0] | north[1]) != 0;
+    }
     CellIndex n;
     for (const Offset o : around)
       if (neighbour(bed, {x, y}, o, n) && dirty[g.index(n)]) return true;
@@ -73,7 +80,7 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
   near.for_each([&](const CellRange& r) {
     for (int y = r.y0; y < r.y1; ++y)
       for (int x = r.x0; x < r.x1; ++x)
-        if (is_near_dirty(x, y)) look_at(x, y);
+        if (bed.loose(g.index(x, y)) > 0 && is_near_dirty(x, y)) look_at(x, y);
   });
   tiles.for_each([&](const CellRange& r) {
     for (int y = r.y0; y < r.y1; ++y)

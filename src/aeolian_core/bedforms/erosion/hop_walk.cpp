@@ -30,6 +30,20 @@ struct Arc {
   }
 };
 
+/// How many steps of a way, by (ex, ey) cells each, stay in the block of a place.
+int steps_in_block(const ErodibleBed& bed, float x, float y, float ex, float ey) {
+  const auto steps = [&](float place, float each, int n) {
+    const auto first =
+        static_cast<float>(static_cast<int>(place) / ErodibleBed::block_cells * ErodibleBed::block_cells);
+    const float last =
+        std::min(first + ErodibleBed::block_cells, static_cast<float>(n)) - (bed.periodic() ? 0 : 0.5F);
+    const float way = each > 0 ? last - place : place - first;
+    return std::abs(each) > 1e-3F ? way / std::abs(each) : 1000.0F;
+  };
+  return static_cast<int>(std::min(steps(x, ex, bed.geometry().nx()), steps(y, ey, bed.geometry().ny())) -
+                          0.05F);
+}
+
 }  // namespace
 
 HopEnd walk_hop(const ErodibleBed& bed, const HopTable& table, const Drift::Cell& wind, float x, float y,
@@ -71,15 +85,16 @@ HopEnd walk_hop(const ErodibleBed& bed, const HopTable& table, const Drift::Cell
   const Arc arc{static_cast<float>(hop.apex),
                 std::clamp(static_cast<float>(hop.apex_distance / hop.range), 0.05F, 0.95F), velocity.z(),
                 down};
-  const float begin = patch_at(bed, x, y).height;
+  const float begin = height_at(bed, x, y);
   const float step = 1 / length;
   float free_from = 2, free_to = 2;
   arc.above(bed.highest() - begin, free_from, free_to);
+  const auto above_all = [&](float at) { return at > free_from && at < free_to; };
   float before = 0;          // part of the range at the last place above the terrain
   float clear_before = 0;    // and how far above
   float part = 0.5F * step;  // what stands within half a cell is the slope that the hop began on
   for (int n = 0; n < most_steps; ++n) {
-    if (part > free_from && part < free_to) {
+    if (above_all(part)) {
       // Nothing reaches up there.
       before = free_to;
       clear_before = arc.height(free_to) + begin - bed.highest();
@@ -91,7 +106,18 @@ HopEnd walk_hop(const ErodibleBed& bed, const HopTable& table, const Drift::Cell
     if (!bed.periodic() && !(px >= -0.5F && py >= -0.5F && px < static_cast<float>(g.nx()) - 0.5F &&
                              py < static_cast<float>(g.ny()) - 0.5F))
       return end_at(part, arc.vertical(part));
-    const float clear = begin + arc.height(part) - patch_at(bed, px, py).height;
+    if (px >= 0 && py >= 0) {
+      // Nor where the block is lower all the way through it.
+      const float highest = bed.highest_of_block(static_cast<int>(px) / ErodibleBed::block_cells,
+                                                 static_cast<int>(py) / ErodibleBed::block_cells);
+      int free = begin + arc.height(part) > highest ? steps_in_block(bed, px, py, dx * step, dy * step) : 0;
+      if (free > 0 && begin + arc.height(part + static_cast<float>(free) * step) > highest) {
+        for (; free > 0 && !above_all(part); --free) part += step;
+        if (above_all(part)) continue;
+        place(part, px, py);
+      }
+    }
+    const float clear = begin + arc.height(part) - height_at(bed, px, py);
     if (clear <= 0) {
       const float share = clear_before > 0 ? clear_before / (clear_before - clear) : 1;
       const float at = before + share * (part - before);

@@ -63,7 +63,8 @@ float Launcher::friction_threshold(std::size_t cell, float slope_along) const {
   float square = weight_ + sticks_ * cohesion;
   if (p_.slope_threshold)
     square *= std::max(0.0F, (1 + slope_along / tan_repose_) / std::sqrt(1 + slope_along * slope_along));
-  return std::sqrt(square);
+  const bool loose = bed_.loose(cell) >= ErodibleBed::parcel_units;
+  return std::sqrt(square) * (impacts_ && loose ? static_cast<float>(p_.impact_threshold) : 1);
 }
 
 float Launcher::chance(CellIndex c) const {

@@ -28,6 +28,8 @@ class Launcher {
   Launcher(const ErosionParameters& parameters, const Grain& grain, const ErodibleBed& bed,
            const Drift& drift, const SnowCover* snow);
 
+  /// Whether anything comes down on the bed, which lowers its threshold; nothing at the beginning.
+  void set_impacts(bool any) { impacts_ = any; }
   /// Finds the tiles in which anything can lift; attempts go there only.
   void find_awake();
   bool anything_awake() const { return !awake_.empty(); }
@@ -61,6 +63,7 @@ class Launcher {
   float weight_, sticks_;  ///< terms of the threshold's square, of gravity and of cohesion [m^2/s^2]
   float tan_repose_;
   float most_exposed_;  ///< exposure that counts, in that of the flat
+  bool impacts_ = false;
   std::vector<int> awake_;
 };
 

@@ -72,15 +72,15 @@ AEOLIAN_INLINE State moved(const State& p, const FlightStep& s, const float* sur
   return q;
 }
 
-AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
-                                        float* __restrict y, float* __restrict z, float* __restrict u,
-                                        float* __restrict v, float* __restrict w, float* __restrict clearance,
-                                        const float* __restrict surface, const float* __restrict) {
+AEOLIAN_INLINE void fly_each(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
+                             float* __restrict y, float* __restrict z, float* __restrict u,
+                             float* __restrict v, float* __restrict w, float* __restrict clearance,
+                             const float* __restrict surface, const float* __restrict shear, bool uniform) {
   const FlightStep s = step;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const State p{x[i], y[i], z[i], u[i], v[i], w[i]};
     float above = 0;
-    const State q = moved(p, s, surface, nullptr, true, above);
+    const State q = moved(p, s, surface, shear, uniform, above);
     const bool flies = above > 0;
     clearance[i] = above;
     x[i] = flies ? q.x : p.x;
@@ -92,25 +92,19 @@ AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const FlightStep& 
   }
 }
 
+AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
+                                        float* __restrict y, float* __restrict z, float* __restrict u,
+                                        float* __restrict v, float* __restrict w, float* __restrict clearance,
+                                        const float* __restrict surface, const float* __restrict shear) {
+  fly_each(count, step, x, y, z, u, v, w, clearance, surface, shear, true);
+}
+
 AEOLIAN_KERNEL void fly_in_wind_of_cells(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
                                          float* __restrict y, float* __restrict z, float* __restrict u,
                                          float* __restrict v, float* __restrict w,
                                          float* __restrict clearance, const float* __restrict surface,
                                          const float* __restrict shear) {
-  const FlightStep s = step;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const State p{x[i], y[i], z[i], u[i], v[i], w[i]};
-    float above = 0;
-    const State q = moved(p, s, surface, shear, false, above);
-    const bool flies = above > 0;
-    clearance[i] = above;
-    x[i] = flies ? q.x : p.x;
-    y[i] = flies ? q.y : p.y;
-    z[i] = flies ? q.z : p.z;
-    u[i] = flies ? q.u : p.u;
-    v[i] = flies ? q.v : p.v;
-    w[i] = flies ? q.w : p.w;
-  }
+  fly_each(count, step, x, y, z, u, v, w, clearance, surface, shear, false);
 }
 
 }  // namespace
@@ -156,8 +150,8 @@ FlightStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosph
   s.period_y = bed.periodic() ? ny : 0;
   s.wrap_x = bed.periodic() ? nx : std::numeric_limits<float>::infinity();
   s.wrap_y = bed.periodic() ? ny : std::numeric_limits<float>::infinity();
-  s.last_x = bed.periodic() ? std::nextafter(nx, 0.0F) : nx - 1;
-  s.last_y = bed.periodic() ? std::nextafter(ny, 0.0F) : ny - 1;
+  s.last_x = bed.last_x();
+  s.last_y = bed.last_y();
   return s;
 }
 

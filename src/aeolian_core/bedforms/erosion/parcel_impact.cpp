@@ -13,10 +13,15 @@ constexpr float slope_effect = 0.4F;
 constexpr float doubling_slope = 0.07F;
 constexpr float most_downhill = 10;
 
+std::int32_t units_of(float grains) {
+  return static_cast<std::int32_t>(std::min(grains, most_pushed) * ErodibleBed::parcel_units);
+}
+
 }  // namespace
 
 ParcelImpacts::ParcelImpacts(const ErosionParameters& parameters, const Grain& grain, const ErodibleBed& bed)
     : bounce_(parameters.bounce),
+      stirs_(parameters.snow.has_value()),
       bed_(bed),
       random_(parameters.seed),
       unit_(static_cast<float>(std::sqrt(parameters.air.gravity * grain.diameter))),
@@ -30,7 +35,10 @@ bool ParcelImpacts::rebounds(float x, float y, std::uint64_t name, std::uint32_t
   Eigen::Vector2f slope(0, 0);
   if (from >= 0) slope = slope_at(bed_, bed_.geometry().cell_at(static_cast<std::size_t>(from)));
   const BounceResult result = bounced(bounce_, velocity, slope.x(), slope.y(), unit_, uniform(bits[0]));
-  if (result.pushed > 0) push(x, y, slope, result.pushed, velocity, uniform(bits[1]), transfers);
+  if (result.pushed > 0 && stirs_)
+    transfers.push_back({x, y, x, y, units_of(result.pushed), Transfer::Kind::stirred, false});
+  if (result.pushed > 0 && bounce_.push)
+    push(x, y, slope, result.pushed, velocity, uniform(bits[1]), transfers);
   velocity = result.velocity;
   return !result.captured;
 }
@@ -38,7 +46,7 @@ bool ParcelImpacts::rebounds(float x, float y, std::uint64_t name, std::uint32_t
 void ParcelImpacts::push(float x, float y, const Eigen::Vector2f& slope, float grains,
                          const Eigen::Vector3f& velocity, float drawn, Transfers& transfers) const {
   const float speed = std::hypot(velocity.x(), velocity.y());
-  const auto units = static_cast<std::int32_t>(std::min(grains, most_pushed) * ErodibleBed::parcel_units);
+  const std::int32_t units = units_of(grains);
   if (!(speed > 0) || units == 0) return;
   const float steepness = slope.squaredNorm() / (doubling_slope * doubling_slope);
   const float downhill = std::min(slope_effect * (1 + steepness), most_downhill);

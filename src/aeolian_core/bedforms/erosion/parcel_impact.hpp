@@ -23,6 +23,7 @@ class ParcelImpacts {
             float drawn, Transfers& transfers) const;
 
   const Bounce& bounce_;
+  bool stirs_;  ///< whether what it breaks loose counts: bonds of snow
   const ErodibleBed& bed_;
   Philox random_;
   float unit_;       ///< sqrt(g d) [m/s]

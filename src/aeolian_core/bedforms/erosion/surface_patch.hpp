@@ -19,13 +19,8 @@ struct SurfacePatch {
 /// `x`, `y` in cells from the centre of cell (0, 0), on the ring of a periodic bed; beyond the centres of an
 /// open one's outer cells the surface is level.
 inline SurfacePatch patch_at(const ErodibleBed& bed, float x, float y) {
-  const GridGeometry& g = bed.geometry();
-  const auto nx = static_cast<float>(g.nx());
-  const auto ny = static_cast<float>(g.ny());
-  const float last_x = bed.periodic() ? std::nextafter(nx, 0.0F) : nx - 1;
-  const float last_y = bed.periodic() ? std::nextafter(ny, 0.0F) : ny - 1;
-  const float cx = std::clamp(x, 0.0F, last_x);
-  const float cy = std::clamp(y, 0.0F, last_y);
+  const float cx = std::clamp(x, 0.0F, bed.last_x());
+  const float cy = std::clamp(y, 0.0F, bed.last_y());
   const int ix = static_cast<int>(cx);
   const int iy = static_cast<int>(cy);
   const float tx = cx - static_cast<float>(ix);
@@ -34,9 +29,24 @@ inline SurfacePatch patch_at(const ErodibleBed& bed, float x, float y) {
   const float* north = south + bed.stride();
   const float low = south[0] + tx * (south[1] - south[0]);
   const float high = north[0] + tx * (north[1] - north[0]);
-  const auto cell = static_cast<float>(g.cell());
+  const auto cell = static_cast<float>(bed.geometry().cell());
   return {low + ty * (high - low), ((1 - ty) * (south[1] - south[0]) + ty * (north[1] - north[0])) / cell,
           (high - low) / cell};
+}
+
+/// Its height alone.
+inline float height_at(const ErodibleBed& bed, float x, float y) {
+  const float cx = std::clamp(x, 0.0F, bed.last_x());
+  const float cy = std::clamp(y, 0.0F, bed.last_y());
+  const int ix = static_cast<int>(cx);
+  const int iy = static_cast<int>(cy);
+  const float tx = cx - static_cast<float>(ix);
+  const float ty = cy - static_cast<float>(iy);
+  const float* south = bed.surface() + iy * bed.stride() + ix;
+  const float* north = south + bed.stride();
+  const float low = south[0] + tx * (south[1] - south[0]);
+  const float high = north[0] + tx * (north[1] - north[0]);
+  return low + ty * (high - low);
 }
 
 /// Height of the cell that lies so far from another; beyond an open border that of the outermost.

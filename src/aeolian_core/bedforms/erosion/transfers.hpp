@@ -13,6 +13,7 @@ struct Transfer {
     settled,  ///< a parcel of the air comes down for good
     lifted,   ///< a parcel leaves and comes down; if the bed has none left, neither that nor what it pushed
     pushed,   ///< as much as there is of loose grains, on the way of the last parcel
+    stirred,  ///< bonds of so many grains break where it comes from
   };
   float from_x, from_y, to_x, to_y;
   std::int32_t units;

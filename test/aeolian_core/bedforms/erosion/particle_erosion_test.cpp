@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 
 #include "aeolian_core/bedforms/erosion/launcher.hpp"
+#include "aeolian_core/bedforms/erosion/snow_cover.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
@@ -222,6 +223,49 @@ TEST(Launcher, nothing_leaves_in_the_lee) {
     // Level ground behind the hump: rays do not reach it, the slope alone cannot know.
     EXPECT_EQ(launcher.chance({123, 5}) > 0, shelter == Shelter::slope);
   }
+}
+
+TEST(Launcher, impacts_lower_the_threshold_of_loose_grains_only) {
+  HeightMap map(GridGeometry(0, 0, 0.02, 32, 32));
+  map.add(layer::elevation, 0.02F);
+  map.add(layer::ground, 0);
+  map.add("sintered", 0);
+  map.layer("sintered")[map.geometry().index(3, 3)] = 0.02F;
+  ErosionParameters p;
+  p.snow = SnowBonding{};
+  p.snow->edge = 0;
+  p.air.density = 1.3;
+  const ErodibleBed bed(map, 2e-4, true);
+  SnowCover snow(*p.snow, bed);
+  const Grain grain = drifting_snow();
+  const auto lifts = [&](double friction, int x, bool impacts) {
+    const Drift drift(wind_of(friction), bed, grain, p);
+    Launcher launcher(p, grain, bed, drift, &snow);
+    launcher.set_impacts(impacts);
+    return launcher.chance({x, 3}) > 0;
+  };
+  for (int x = 0; x < 32; ++x) snow.set_age(map.geometry().index(x, 3), 60);  // threshold 0.337 m/s
+  EXPECT_FALSE(lifts(0.30, 20, false));
+  EXPECT_TRUE(lifts(0.30, 20, true));
+  EXPECT_FALSE(lifts(0.60, 3, true));
+  EXPECT_TRUE(lifts(0.70, 3, false));
+}
+
+TEST(Snow, drift_keeps_its_surface_fresh_where_undisturbed_snow_has_bonded) {
+  ErosionParameters p;
+  p.flight = FlightMode::hop_table;
+  p.snow = SnowBonding{};
+  p.air.density = 1.3;
+  p.roughness = 1e-4;
+  p.parcel_thickness = 1e-3;
+  HeightMap blown = sand_bed(32, 32);
+  ParticleErosion drifting(p);
+  drifting.advance(blown, wind_of(0.35), drifting_snow(), 600);
+  EXPECT_GT(drifting.advance(blown, wind_of(0.35), drifting_snow(), 60).volume.moved, 0);
+  p.snow->initial_age = 600;
+  HeightMap calm = sand_bed(32, 32);
+  ParticleErosion bonded(p);
+  EXPECT_EQ(bonded.advance(calm, wind_of(0.35), drifting_snow(), 60).volume.moved, 0);
 }
 
 TEST(Snow, sintered_snow_goes_only_at_edges_and_only_above_its_threshold) {
