@@ -28,6 +28,11 @@ double inner_depth(double length, double roughness) {
   return roughness * root_of_log(2 * von_karman * von_karman * length / roughness, 1);
 }
 
+double inner_depth_over(const GridGeometry& map, double roughness) {
+  const double side = map.size() > 0 ? std::min(map.length_x(), map.length_y()) : 0;
+  return inner_depth(std::max(0.25 * side, 10 * roughness), roughness);
+}
+
 double middle_height(double length, double roughness) {
   return roughness * root_of_log(length / roughness, 0.5);
 }

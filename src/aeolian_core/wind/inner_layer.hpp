@@ -2,6 +2,7 @@
 
 #include <complex>
 
+#include "aeolian_core/surface/grid_geometry.hpp"
 #include "aeolian_core/wind/upwind_profile.hpp"
 
 namespace aeolian {
@@ -11,6 +12,9 @@ namespace aeolian {
 
 /// Depth l of the inner layer, in which friction matters: l ln(l/z0) = 2 kappa^2 L (Jackson & Hunt) [m].
 double inner_depth(double length, double roughness);
+/// That of the longest slopes of a map, whose relief is not asked: a quarter of its shorter side is a long
+/// hill on it [m].
+double inner_depth_over(const GridGeometry& map, double roughness);
 /// Height h_m above which shear does not matter: h_m sqrt(ln(h_m/z0)) = L [m].
 double middle_height(double length, double roughness);
 

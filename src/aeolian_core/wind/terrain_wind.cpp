@@ -52,6 +52,14 @@ std::string name_of(WindBackend backend) {
   }
 }
 
+std::optional<WindBackend> backend_of(const std::string& word) {
+  if (word == "log") return WindBackend::log_law;
+  if (word == "spectral") return WindBackend::spectral;
+  if (word == "mass_consistent") return WindBackend::mass_consistent;
+  if (word == "sph") return WindBackend::sph;
+  return std::nullopt;
+}
+
 WindBackend choose_backend(const WindRelief& relief, double direction, const ReliefSettings& settings,
                            WindQuestion question) {
   const double steep = steepness(relief);

@@ -14,6 +14,8 @@ namespace aeolian {
 enum class WindBackend { log_law, spectral, mass_consistent, sph };
 /// As a WindField tells it: "log law", "spectral", "mass consistent", "SPH".
 std::string name_of(WindBackend backend);
+/// The one that a flag or parameter names: log, spectral, mass_consistent, sph; nothing for any other word.
+std::optional<WindBackend> backend_of(const std::string& word);
 
 /// What is wanted of a wind.
 enum class WindQuestion { surface_stress, velocities };

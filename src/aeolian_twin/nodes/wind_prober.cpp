@@ -15,12 +15,6 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double headroom = 1.2;
 
-/// Of the relief's longest slopes: a quarter of the map's shorter side is a long hill on it.
-double inner_depth_of(const GridGeometry& map, double roughness) {
-  const double side = map.size() > 0 ? std::min(map.length_x(), map.length_y()) : 0;
-  return inner_depth(std::max(0.25 * side, 10 * roughness), roughness);
-}
-
 }  // namespace
 
 std::vector<ProbeReading> WindProber::at(const std::vector<Eigen::Vector3d>& points) {
@@ -85,7 +79,7 @@ void WindProber::solve(double top) {
   unit.time = reader_.time();
   WindField field = model.solve(unit, map);
   probe_ = std::make_unique<WindProbe>(std::move(field), map ? model.volume(*map, direction, top_) : nullptr,
-                                       roughness, inner_depth_of(reader_.ground().extent(), roughness));
+                                       roughness, inner_depth_over(reader_.ground().extent(), roughness));
   solutions_ = model.solutions();
 }
 

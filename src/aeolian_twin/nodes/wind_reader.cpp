@@ -15,14 +15,6 @@
 namespace aeolian {
 namespace {
 
-/// As `terrain_wind --model`.
-std::optional<WindBackend> backend_of(const std::string& model) {
-  if (model == "log") return WindBackend::log_law;
-  if (model == "spectral") return WindBackend::spectral;
-  if (model == "mass_consistent") return WindBackend::mass_consistent;
-  return std::nullopt;
-}
-
 double roughness_of(const Parameters& parameters) {
   const double roughness = parameters.number("roughness");
   return roughness > 0 ? roughness : grain_roughness(parameters.number("grain_diameter"));

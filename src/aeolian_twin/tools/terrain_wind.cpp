@@ -44,26 +44,12 @@ struct Options {
   std::string out;
 };
 
-std::optional<WindBackend> backend_of(const std::string& model) {
-  if (model == "log") return WindBackend::log_law;
-  if (model == "spectral") return WindBackend::spectral;
-  if (model == "mass_consistent") return WindBackend::mass_consistent;
-  if (model == "sph") return WindBackend::sph;
-  return std::nullopt;
-}
-
-/// Of the relief's longest slopes: a quarter of the map's shorter side is a long hill on it.
-double inner_depth_of(const HeightMap& map, double roughness) {
-  const GridGeometry& g = map.geometry();
-  return inner_depth(std::max(0.25 * std::min(g.length_x(), g.length_y()), 10 * roughness), roughness);
-}
-
 std::vector<ProbeReading> probe(const TerrainWind& model, const TerrainWindRun& run,
                                 const std::vector<ProbePoint>& points) {
   double top = 0;
   for (const ProbePoint& p : points) top = std::max(top, p.height);
   const WindProbe probe(run.field, model.volume(run.map, run.field.direction, 1.2 * top), run.roughness,
-                        inner_depth_of(run.map, run.roughness));
+                        inner_depth_over(run.map.geometry(), run.roughness));
   std::vector<ProbeReading> readings;
   for (const ProbePoint& p : points) readings.push_back(probe.at(p.place, p.height));
   return readings;
