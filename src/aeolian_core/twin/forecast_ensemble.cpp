@@ -26,10 +26,12 @@ std::uint64_t number_of(const std::vector<WindSpell>& wind) {
   return bits;
 }
 
-/// On cells of the largest multiple of the map's that is not above `cell` [m].
-HeightMap coarsened(const HeightMap& map, double cell) {
+/// On cells of the largest multiple of the map's that is not above `cell` [m]; of a map that repeats, that
+/// also divides it.
+HeightMap coarsened(const HeightMap& map, double cell, bool repeats) {
   const GridGeometry& g = map.geometry();
-  const int factor = std::max(1, static_cast<int>(std::floor(cell / g.cell() * (1 + 1e-9))));
+  int factor = std::max(1, static_cast<int>(std::floor(cell / g.cell() * (1 + 1e-9))));
+  while (repeats && (g.nx() % factor != 0 || g.ny() % factor != 0)) --factor;
   if (factor == 1) return map;
   const auto count = [factor](int cells) { return (cells + factor - 1) / factor; };
   return resample(map,
@@ -133,7 +135,8 @@ EnsembleForecast ForecastEnsemble::run(const HeightMap& start, const std::vector
     return result;
   }
 
-  const HeightMap coarse = coarsened(start_of(start), settings_.member_cell);
+  const HeightMap coarse =
+      coarsened(start_of(start), settings_.member_cell, physics_.ripple.border == Border::periodic);
   const std::uint64_t number = number_of(wind);
   result.member_geometry = coarse.geometry();
   result.members.resize(members.size());

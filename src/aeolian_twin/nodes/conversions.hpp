@@ -82,8 +82,9 @@ aeolian_msgs::GustRecord to_message(const Gusts& gusts);
 /// for what log_law.hpp does not allow.
 std::vector<WindSample> to_wind_samples(const aeolian_msgs::WindAhead& message, double roughness);
 
+/// `in_use`: whether forecasts are made with what was learned.
 aeolian_msgs::LearnedParameters to_message(const LearnedState& state, const ParameterLearner::Update& update,
-                                           const std_msgs::Header& header);
+                                           bool in_use, const std_msgs::Header& header);
 
 aeolian_msgs::Comparison to_message(const Comparison& comparison, const std_msgs::Header& header,
                                     const ros::Time& issued);

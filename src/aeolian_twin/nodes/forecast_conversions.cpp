@@ -26,7 +26,7 @@ std::vector<WindSample> to_wind_samples(const aeolian_msgs::WindAhead& message, 
 }
 
 aeolian_msgs::LearnedParameters to_message(const LearnedState& state, const ParameterLearner::Update& update,
-                                           const std_msgs::Header& header) {
+                                           bool in_use, const std_msgs::Header& header) {
   aeolian_msgs::LearnedParameters message;
   message.header = header;
   const auto median = update.after.values();
@@ -46,6 +46,7 @@ aeolian_msgs::LearnedParameters to_message(const LearnedState& state, const Para
   message.updates = static_cast<std::uint32_t>(state.updates);
   message.learned = update.learned;
   message.why_not = update.why_not;
+  message.in_use = in_use;
   message.innovation = update.innovation;
   return message;
 }

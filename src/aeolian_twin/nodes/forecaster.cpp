@@ -108,7 +108,7 @@ class Forecaster : public Node {
 
   void publish(const ParameterLearner::Update& update, const std_msgs::Header& header) {
     const LearnedState& state = engine_->learner()->state();
-    learned_publisher_.publish(to_message(state, update, header));
+    learned_publisher_.publish(to_message(state, update, engine_->believes(), header));
     if (!update.learned) {
       good("learning", "nothing learned: " + update.why_not);
       return;
@@ -116,8 +116,9 @@ class Forecaster : public Node {
     try {
       const std::string& path = parameters().text("learned_file");
       if (!path.empty()) engine_->learner()->save(path);
-      good("learning", fmt::format("{} updates; the friction velocity is {:.3f} times what is given",
-                                   state.updates, update.after.friction_velocity));
+      good("learning", fmt::format("{} updates; the friction velocity is {:.3f} times what is given; {}",
+                                   state.updates, update.after.friction_velocity,
+                                   engine_->believes() ? "in use" : "not in use until it forecasts better"));
     } catch (const Error& error) {
       bad("learning", error.what());
     }

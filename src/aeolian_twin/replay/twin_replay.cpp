@@ -183,7 +183,8 @@ void TwinReplay::take_map(const GridMap& message) {
     tell_of_wind(taken, engine_.settings(), header.stamp, tell(forecaster));
     if (taken.learned) {
       lessons_ += taken.learned->learned ? 1 : 0;
-      write("/learned", now_, shared(to_message(engine_.learner()->state(), *taken.learned, header)));
+      write("/learned", now_,
+            shared(to_message(engine_.learner()->state(), *taken.learned, engine_.believes(), header)));
     }
     if (taken.job) forecast(std::move(*taken.job), header);
   } catch (const Error& error) {

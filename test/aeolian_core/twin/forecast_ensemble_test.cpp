@@ -76,6 +76,18 @@ TEST(ForecastEnsemble, MembersLeaveTheElevationAsItIs) {
     EXPECT_EQ(result.forecasts[h].map.layer(layer::elevation), plain(start)[h].map.layer(layer::elevation));
 }
 
+TEST(ForecastEnsemble, OfABedThatRepeatsMembersRunOnCellsThatDivideIt) {
+  TwinPhysics physics;
+  physics.ripple.border = Border::periodic;
+  ForecastEnsemble::Settings settings;
+  settings.member_cell = 0.012;  // three cells, which do not divide 80
+  const EnsembleForecast result =
+      ForecastEnsemble(physics, settings)
+          .run(ripples(), wind(0.45), horizons, draw_parameters(default_priors(), 5, 1), {});
+  EXPECT_DOUBLE_EQ(result.member_geometry.cell(), 0.008);
+  EXPECT_DOUBLE_EQ(result.member_geometry.length_x(), 0.32);
+}
+
 TEST(ForecastEnsemble, AMemberIsTheForecastOfItsParameters) {
   const HeightMap start = ripples();
   const EnsembleForecast result = run(exact(), start);

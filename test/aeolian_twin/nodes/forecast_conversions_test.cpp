@@ -53,7 +53,7 @@ TEST(LearnedParameters, TellMedianAndSpreadOfTheMembers) {
   ParameterLearner::Update update;
   update.learned = true;
   update.innovation = 1.5;
-  const aeolian_msgs::LearnedParameters message = to_message(state, update, {});
+  const aeolian_msgs::LearnedParameters message = to_message(state, update, true, {});
   ASSERT_EQ(message.names.size(), 5U);
   EXPECT_EQ(message.names[0], "friction_velocity");
   EXPECT_EQ(message.median[0], 1);
@@ -61,6 +61,7 @@ TEST(LearnedParameters, TellMedianAndSpreadOfTheMembers) {
   EXPECT_EQ(message.sigma[1], 0);
   EXPECT_EQ(message.updates, 3U);
   EXPECT_TRUE(message.learned);
+  EXPECT_TRUE(message.in_use);
   EXPECT_EQ(message.innovation, 1.5);
 }
 
