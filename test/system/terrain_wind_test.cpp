@@ -73,7 +73,7 @@ TEST(TerrainWindTest, says_what_it_cannot_do) {
   says(complaint("--speed 8 --anemometer 500085 4000040"), "separates behind a lee");
   says(complaint("--speed 8 --anemometer 0 0"), "beside the map");
   says(complaint("--speed 8 --height 0.000001"), "above the roughness length");
-  says(complaint("--speed 8 --model sph"), "--model");
+  says(complaint("--speed 8 --model les"), "--model");
   says(complaint("--speed 8 --probes " + folder.write("p.csv", "x_m,y_m\n1,2\n")), "no column height_m");
   says(complaint("--speed 8 --probes " + folder.write("q.csv", "x_m,y_m,height_m\n1,2,-3\n")),
        "must be positive");
