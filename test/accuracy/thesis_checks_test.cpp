@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../degree.hpp"
 #include "../rendering/laboratory.hpp"
 #include "../rendering/ripple_bed.hpp"
 #include "../rendering/shadow_score.hpp"
@@ -14,7 +15,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double half_grain = 0.136e-3;
 
 ShadowProfile measured(const SetUp& set_up, ProfileMode mode = ProfileMode::full) {

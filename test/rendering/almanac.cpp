@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "../degree.hpp"
+
 namespace aeolian {
 
 AlmanacSun almanac_sun(double unix_time, double latitude, double longitude) {
-  constexpr double degree = M_PI / 180;
   const double days = unix_time / 86400 - 10957.5;  // since J2000.0; dynamical time is near enough
   const double mean_longitude = (280.460 + 0.9856474 * days) * degree;
   const double anomaly = (357.528 + 0.9856003 * days) * degree;

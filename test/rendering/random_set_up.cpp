@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../degree.hpp"
 #include "lens.hpp"
 #include "ripple_bed.hpp"
 #include "scene_frames.hpp"
@@ -15,8 +16,6 @@
 namespace aeolian {
 
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// Draws one set-up: the kind first, then geometry again and again until everything is in the frame.
 class Draw {

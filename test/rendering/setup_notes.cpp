@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../degree.hpp"
 #include "almanac.hpp"
 #include "lens.hpp"
 #include "scene_frames.hpp"
@@ -10,8 +11,6 @@
 namespace aeolian {
 
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 Eigen::Vector2d blur(const Eigen::Vector2d& pixel, double sigma, RandomStream* random) {
   const double x = random->normal();

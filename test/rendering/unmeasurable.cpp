@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../degree.hpp"
 #include "grain_texture.hpp"
 #include "image_formation.hpp"
 #include <opencv2/imgproc.hpp>
@@ -11,7 +12,6 @@ namespace aeolian {
 
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double megapixels = 1;
 
 using Spoil = std::function<void(cv::Mat*)>;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string config = std::string(AEOLIAN_REPOSITORY) + "/test/system/replay.yaml";
+const std::string twin_config = std::string(AEOLIAN_REPOSITORY) + "/test/system/replay.yaml";
 
 std::map<std::string, std::size_t> topics_of(const std::string& path) {
   const rosbag::Bag bag(path);
@@ -40,13 +40,13 @@ class Replay : public testing::Test {
     return path;
   }
   /// Runs it into the folder `out`.
-  Outcome run(const std::string& bags, const std::string& with = config,
+  Outcome run(const std::string& bags, const std::string& with = twin_config,
               const std::string& out = "out") const {
     return run_program("replay " + bags + " --config " + with + " --out " + folder_.file(out));
   }
   /// Expects exit code 1, one line that holds `part`, and no bag.
   void expect_refusal(const std::string& bags, const std::string& part,
-                      const std::string& with = config) const {
+                      const std::string& with = twin_config) const {
     const Outcome outcome = run(bags, with, "refused");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
@@ -82,9 +82,9 @@ TEST_F(Replay, WritesWhatTheNodesWouldPublishAndAReport) {
 
 TEST_F(Replay, TheSameBitsOnOneCoreAndOnAll) {
   const std::string bag = day("field.bag");
-  ASSERT_EQ(run(bag, config, "all").code, 0);
-  const std::string one = "taskset -c 0 " AEOLIAN_BIN "/replay " + bag + " --config " + config + " --out " +
-                          folder_.file("one") + " > " + folder_.file("log");
+  ASSERT_EQ(run(bag, twin_config, "all").code, 0);
+  const std::string one = "taskset -c 0 " AEOLIAN_BIN "/replay " + bag + " --config " + twin_config +
+                          " --out " + folder_.file("one") + " > " + folder_.file("log");
   ASSERT_EQ(std::system(one.c_str()), 0);
   EXPECT_TRUE(content_of(folder_.file("one/twin.bag")) == content_of(folder_.file("all/twin.bag")));
 }
@@ -96,7 +96,7 @@ TEST_F(Replay, WhatIsDoneIsNotDoneAgainUnlessItWouldDiffer) {
   const auto first = written();
   ASSERT_EQ(run(bag).code, 0);
   EXPECT_EQ(written(), first);
-  std::string text = content_of(config);
+  std::string text = content_of(twin_config);
   text.replace(text.find("period: 2.0"), 11, "period: 4.0");
   ASSERT_EQ(run(bag, folder_.write("other.yaml", text)).code, 0);
   EXPECT_GT(written(), first);
@@ -143,9 +143,9 @@ TEST_F(Replay, ProcessesOfMpirunShareTheBagsWithTheSameResult) {
     small.seconds = 6 + name[5] % 3;
     day(name, small);
   }
-  ASSERT_EQ(run(folder_.file("days"), config, "alone").code, 0);
+  ASSERT_EQ(run(folder_.file("days"), twin_config, "alone").code, 0);
   const std::string command = "mpirun --allow-run-as-root --oversubscribe -n 2 " AEOLIAN_BIN "/replay " +
-                              folder_.file("days") + " --config " + config + " --out " +
+                              folder_.file("days") + " --config " + twin_config + " --out " +
                               folder_.file("together") + " > " + folder_.file("log") + " 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << content_of(folder_.file("log"));
   for (const char* file : {"summary.csv", "index.html", "a/twin.bag", "b/twin.bag", "c/twin.bag"})
@@ -158,7 +158,7 @@ TEST_F(Replay, StoppedItLeavesWhatIsWhole) {
   longer.seconds = 300;
   const std::string bag = day("field.bag", longer);
   ChildProcess replay(
-      {std::string(AEOLIAN_BIN) + "/replay", bag, "--config", config, "--out", folder_.file("out")});
+      {std::string(AEOLIAN_BIN) + "/replay", bag, "--config", twin_config, "--out", folder_.file("out")});
   const auto begun = [&] { return fs::exists(folder_.file("out")) && !fs::is_empty(folder_.file("out")); };
   for (int i = 0; i < 1000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   ASSERT_TRUE(begun());

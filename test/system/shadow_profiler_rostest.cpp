@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "../degree.hpp"
 #include "../rendering/shadow_scene.hpp"
 #include "../temporary_folder.hpp"
 #include "program_outcome.hpp"
@@ -33,7 +34,6 @@ namespace aeolian {
 namespace {
 
 using ShadowSetUp = SetUp;  // gtest has a SetUp of its own
-constexpr double degree = M_PI / 180;
 
 sensor_msgs::Image message_of(const Photo& photo, const ros::Time& stamp) {
   sensor_msgs::Image image;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string config =
+const std::string slide_config =
     "name: small\n"
     "snow: {density_kg_m3: 210, youngs_modulus_mpa: 0.5, poisson_ratio: 0.3, m: 0.5, p0_kpa: 7, beta: 0.2, "
     "xi: 0.1}\n"
@@ -25,12 +25,12 @@ const std::string config =
 
 class SlideSnow : public testing::Test {
  protected:
-  SlideSnow() { folder_.write("small.yaml", config); }
+  SlideSnow() { folder_.write("small.yaml", slide_config); }
   Outcome run(const std::string& arguments) const {
     return run_program("slide_snow " + arguments, folder_.path());
   }
   void expect_refusal(const std::string& from, const std::string& to, const std::string& line) const {
-    std::string text = config;
+    std::string text = slide_config;
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     folder_.write("bad.yaml", text.replace(at, from.size(), to));

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string config =
+const std::string splash_config =
     "name: small\n"
     "shape: discs\n"
     "grains: {diameter_mm: 20, density_kg_m3: 2000}\n"
@@ -32,7 +32,7 @@ const std::string config =
 
 class SplashStudy : public testing::Test {
  protected:
-  SplashStudy() { folder_.write("small.yaml", config); }
+  SplashStudy() { folder_.write("small.yaml", splash_config); }
   Outcome run(const std::string& arguments) const {
     return run_program("splash_study " + arguments, folder_.path());
   }
@@ -42,7 +42,7 @@ class SplashStudy : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   void expect_refusal(const std::string& from, const std::string& to, const std::string& line) const {
-    std::string text = config;
+    std::string text = splash_config;
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     folder_.write("bad.yaml", text.replace(at, from.size(), to));
@@ -63,9 +63,9 @@ TEST_F(SplashStudy, WritesAllItsResults) {
                            "histograms.svg", "impact.png", "impact_00.png", "impact_08.png", "impact.webp"})
     EXPECT_TRUE(fs::exists(folder_.file(std::string("results/") + name))) << name;
   EXPECT_GT(cv::imread(folder_.file("results/impact.png")).cols, 1500);
-  const SplashTable table = SplashTable::read(folder_.file("results/splash_table.csv"));
-  EXPECT_EQ(table.events(), 6U);
-  EXPECT_EQ(table.source().command, "rosrun aeolian_twin splash_study --config small.yaml --out results");
+  const SplashTable written = SplashTable::read(folder_.file("results/splash_table.csv"));
+  EXPECT_EQ(written.events(), 6U);
+  EXPECT_EQ(written.source().command, "rosrun aeolian_twin splash_study --config small.yaml --out results");
   EXPECT_NE(content_of(folder_.file("results/summary.csv")).find(",rebound_speed,"), std::string::npos);
   EXPECT_EQ(content_of(folder_.file("results/impact.webp")).substr(0, 4), "RIFF");
 }

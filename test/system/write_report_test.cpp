@@ -23,13 +23,11 @@ namespace {
 constexpr int nx = 100;
 constexpr int ny = 40;
 constexpr double cell = 0.004;
-constexpr double wavelength = 0.08;
+constexpr double wave = 0.08;
 constexpr double start = 1700000000;
 
 /// Height of ripples that move eastwards at 0.1 mm/s [m].
-double height_at(double x, double time) {
-  return 0.002 * std::sin(2 * M_PI * (x - 1e-4 * time) / wavelength);
-}
+double height_at(double x, double time) { return 0.002 * std::sin(2 * M_PI * (x - 1e-4 * time) / wave); }
 
 void add_layer(grid_map_msgs::GridMap& message, const std::string& name,
                const std::function<double(double x)>& value) {
@@ -91,7 +89,7 @@ aeolian_msgs::Comparison comparison(double issued, double lead) {
   message.rmse_persistence = 0.0008;
   message.rmse_translation = 0.0001;
   message.skill_persistence = 0.75;
-  message.wavelength_measured = message.wavelength_predicted = wavelength;
+  message.wavelength_measured = message.wavelength_predicted = wave;
   message.displacement_measured = 1e-4 * lead;
   message.displacement_predicted = NAN;
   return message;
@@ -155,7 +153,7 @@ TEST_F(WriteReport, OfARecordedRun) {
   const Table ripples = read_csv(folder_.file("a/report/ripples.csv"));
   ASSERT_EQ(ripples.rows(), 31U);
   EXPECT_EQ(ripples.column("time_s").back(), 300);
-  EXPECT_NEAR(ripples.column("wavelength_m").back(), wavelength, 0.02 * wavelength);
+  EXPECT_NEAR(ripples.column("wavelength_m").back(), wave, 0.02 * wave);
   EXPECT_NEAR(ripples.column("height_m").back(), 0.004, 0.0002);
   EXPECT_NEAR(ripples.column("friction_velocity_m_s").front(), 0.2, 1e-6);
   EXPECT_NEAR(ripples.column("friction_velocity_m_s").back(), 0.4, 1e-6);

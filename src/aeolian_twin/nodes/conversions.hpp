@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,6 +35,14 @@
 /// Between messages and core types: the only place where the two meet. What a message gets wrong is an Error
 /// that names the field, its value and what is allowed.
 namespace aeolian {
+
+/// A stamp as the core has it, and back.
+inline std::chrono::nanoseconds to_stamp(const ros::Time& time) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(time.toNSec()));
+}
+inline ros::Time to_time(std::chrono::nanoseconds stamp) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
+}
 
 /// The map of all layers. Ours runs from the south-west corner, x fastest; a GridMap from the north-east one,
 /// rows (x) fastest: each layer is the other's in reverse. `elevation` is the basic layer when there is one.

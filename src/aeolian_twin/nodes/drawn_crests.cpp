@@ -10,7 +10,7 @@ namespace {
 
 // Of the map's length.
 constexpr double line_width = 0.004;
-constexpr double lift = 0.005;  // over the noise and over blocks of cells whose mean is drawn
+constexpr double crest_lift = 0.005;  // over the noise and over blocks of cells whose mean is drawn
 
 }  // namespace
 
@@ -24,7 +24,7 @@ visualization_msgs::Marker draw_crests(const DrawnLayers& layers, const SurfaceL
   lines.type = visualization_msgs::Marker::LINE_LIST;
   lines.pose.position.x = grid.origin_x() + look.offset[0];
   lines.pose.position.y = grid.origin_y() + look.offset[1];
-  lines.pose.position.z = lowest + look.offset[2] + lift * grid.length_x();
+  lines.pose.position.z = lowest + look.offset[2] + crest_lift * grid.length_x();
   lines.pose.orientation.w = 1;
   lines.scale.x = line_width * grid.length_x();
   lines.color.r = 0;

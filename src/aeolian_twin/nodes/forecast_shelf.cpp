@@ -17,14 +17,6 @@
 namespace aeolian {
 namespace {
 
-std::chrono::nanoseconds to_stamp(const ros::Time& time) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(time.toNSec()));
-}
-
-ros::Time to_time(std::chrono::nanoseconds stamp) {
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
-}
-
 /// To a microsecond, as the layer holds floats.
 double lead_time_of(const grid_map_msgs::GridMap& message, const std::string& topic) {
   try {

@@ -35,7 +35,7 @@ Format format_of(const std::string& file) {
       fmt::format("map '{}': the name ends in '{}', must end in .tif, .tiff or .bag", file, extension));
 }
 
-ros::Time to_time(const std::string& text) {
+ros::Time time_of(const std::string& text) {
   unsigned seconds = 0;
   unsigned nanoseconds = 0;
   if (std::sscanf(text.c_str(), "%10u.%9u", &seconds, &nanoseconds) != 2) return {};
@@ -52,7 +52,7 @@ StoredMap load_geotiff(const std::string& file) {
   StoredMap stored{read_geotiff(file), {}, {}};
   const GeotiffNotes notes = read_geotiff_notes(file);
   if (const auto frame = notes.find(frame_note); frame != notes.end()) stored.frame = frame->second;
-  if (const auto stamp = notes.find(stamp_note); stamp != notes.end()) stored.stamp = to_time(stamp->second);
+  if (const auto stamp = notes.find(stamp_note); stamp != notes.end()) stored.stamp = time_of(stamp->second);
   return stored;
 }
 

@@ -15,10 +15,6 @@ const ros::WallDuration part_gap(0.02);
 /// A part that is lost stays lost until the place changes again.
 constexpr std::uint32_t most_waiting_parts = 10000;
 
-HeldMap::Stamp to_stamp(const ros::Time& time) {
-  return HeldMap::Stamp(static_cast<std::int64_t>(time.toNSec()));
-}
-
 }  // namespace
 
 MapReceiver::MapReceiver(ros::NodeHandle& node, const std::string& topic, Taken taken, Refused refused,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "../../degree.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double noise = 0.002;
 
 /// The bed's frame: inclined by `slope` downwards to `azimuth`.

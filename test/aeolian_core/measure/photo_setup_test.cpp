@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "../../degree.hpp"
 #include "../../temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 const std::string scale = "straightedge: {scale_px_mm: [[100, 50, 0], [300, 52, 20], [500, 54, 40]]}\n";
 const std::string light = "light: {elevation_deg: 35, azimuth_deg: -5}\n";

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// The bed of the tests, over the level frame's origin [m].
 double bed(double x) { return -0.02 + 0.003 * std::sin(2 * M_PI * x / 0.06); }

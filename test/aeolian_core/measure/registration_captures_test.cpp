@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "../../degree.hpp"
 #include "../../shared_data.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
@@ -26,7 +27,6 @@ namespace aeolian {
 namespace {
 
 constexpr std::size_t captures = 5;
-constexpr double degree = M_PI / 180;
 
 /// config/sensors/kinect_v1.yaml
 constexpr SensorNoise kinect{0.001504, -0.00152, 0.0019, 0.078 * degree, 0.2, 0};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
@@ -9,8 +10,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// A surface h(s), s along a direction [m], on a tilted plane.
 template <class Profile>

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "../../degree.hpp"
+
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
-
-constexpr double degree = M_PI / 180;
 
 /// A surface z(x, y) on a grid.
 template <class Surface>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../degree.hpp"
 #include "../../rendering/almanac.hpp"
 #include "../../rendering/lens.hpp"
 #include <gtest/gtest.h>
@@ -12,8 +13,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 double linear(double srgb) {
   const double v = srgb / 255;

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "../../degree.hpp"
 #include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double tolerance = 0.01;  // degrees, as promised
 
 SunPosition sun_at(const std::string& utc, double latitude_deg, double longitude_deg) {

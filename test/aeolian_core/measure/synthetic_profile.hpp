@@ -5,12 +5,13 @@
 #include <functional>
 #include <vector>
 
+#include "../../degree.hpp"
+
 #include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian::synthetic {
 
-constexpr double degree = M_PI / 180;
 constexpr double grain = 0.272e-3;  ///< of the Kelso Dunes [m]
 
 using Curve = std::function<double(double)>;

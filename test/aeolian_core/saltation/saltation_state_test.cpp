@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 Grain sand(double diameter) {
   Grain grain;

@@ -10,7 +10,7 @@ namespace aeolian {
 namespace {
 
 /// The laboratory's scene, coarse and of soft snow: quick. Heights are those of the map.
-SlideScene small_scene() {
+SlideScene scene_at_site() {
   SlideScene scene;
   scene.cell = 0.01;
   scene.threads = 1;
@@ -63,7 +63,7 @@ TEST(SlideSite, TakesTheGroundOutOfTheMap) {
     map.layer(layer::elevation)[k] += 0.1F * static_cast<float>(grid.y(grid.cell_at(k).y));
   const SlideSite north{0.3, -0.2, M_PI / 2};
   for (const int dimensions : {2, 3}) {
-    const SiteGround ground = ground_of_site(map, small_scene(), north, dimensions);
+    const SiteGround ground = ground_of_site(map, scene_at_site(), north, dimensions);
     const GridGeometry& local = ground.map.geometry();
     EXPECT_EQ(local.ny() > 1, dimensions == 3);
     EXPECT_EQ(ground.guessed, 0);
@@ -77,7 +77,7 @@ TEST(SlideSite, TakesTheGroundOutOfTheMap) {
 }
 
 TEST(SlideSite, WhatIsPanelIsNotGround) {
-  const SlideScene scene = small_scene();
+  const SlideScene scene = scene_at_site();
   HeightMap map = level_ground();
   const GridGeometry& grid = map.geometry();
   for (std::size_t k = 0; k < grid.size(); ++k) {  // as a scanner from above sees the panel
@@ -95,24 +95,24 @@ TEST(SlideSite, WhatIsPanelIsNotGround) {
 TEST(SlideSite, RefusesGroundThatIsNotKnown) {
   HeightMap map = level_ground();
   map.layer(layer::elevation)[map.geometry().index(220, 200)] = HeightMap::unknown;
-  EXPECT_GT(ground_of_site(map, small_scene(), {}, 2).guessed, 0) << "a hole is filled";
+  EXPECT_GT(ground_of_site(map, scene_at_site(), {}, 2).guessed, 0) << "a hole is filled";
   for (int x = 230; x < 400; ++x)
     for (int y = 0; y < 400; ++y)
       map.layer(layer::elevation)[map.geometry().index(x, y)] = HeightMap::unknown;
-  const std::string told = error_of([&] { ground_of_site(map, small_scene(), {}, 2); });
+  const std::string told = error_of([&] { ground_of_site(map, scene_at_site(), {}, 2); });
   EXPECT_EQ(told.find("ground: "), 0U) << told;
   EXPECT_NE(told.find("is not known, must be at most 10 %"), std::string::npos) << told;
   EXPECT_NE(error_of([&] {
-              ground_of_site(map, small_scene(), {50, 0, 0}, 2);
+              ground_of_site(map, scene_at_site(), {50, 0, 0}, 2);
             }).find("100 % of the"),
             std::string::npos);
   map.add(layer::elevation);
-  EXPECT_EQ(error_of([&] { ground_of_site(map, small_scene(), {}, 2); }),
+  EXPECT_EQ(error_of([&] { ground_of_site(map, scene_at_site(), {}, 2); }),
             "ground: no cell of the map is known");
 }
 
 TEST(SitePiles, APatchHoldsTheSnow) {
-  const SlideScene scene = small_scene();
+  const SlideScene scene = scene_at_site();
   const HeightMap map = level_ground();
   for (const double direction : {0., 0.7}) {
     const auto piles = make_site_piles(scene, {0.1, 0.2, direction}, 2, 0.2);
@@ -143,7 +143,7 @@ TEST(SitePiles, APatchHoldsTheSnow) {
 TEST(SitePiles, GoOnWhetherTheMapShowsThePileOrNot) {
   const HeightMap bare = level_ground();
   const auto second = [&](bool put_back) {
-    const auto piles = make_site_piles(small_scene(), {}, 2, 0.2);
+    const auto piles = make_site_piles(scene_at_site(), {}, 2, 0.2);
     HeightMap map = bare;
     const auto first = piles->release(map, 0.02);
     if (put_back) put(first->patch, map);
@@ -162,7 +162,7 @@ TEST(SitePiles, GoOnWhetherTheMapShowsThePileOrNot) {
 }
 
 TEST(SitePiles, AMapThatContradictsThePileIsTheGround) {
-  const auto piles = make_site_piles(small_scene(), {}, 2, 0.2);
+  const auto piles = make_site_piles(scene_at_site(), {}, 2, 0.2);
   const auto first = piles->release(level_ground(), 0.02);
   const auto second = piles->release(level_ground(0.9F), 0.02);  // somebody has dug there
   EXPECT_EQ(second->news, PileNews::contradicted);
@@ -174,34 +174,34 @@ TEST(SitePiles, AMapThatContradictsThePileIsTheGround) {
 }
 
 TEST(SitePiles, CanBeForgotten) {
-  const auto piles = make_site_piles(small_scene(), {}, 2, 0.2);
+  const auto piles = make_site_piles(scene_at_site(), {}, 2, 0.2);
   piles->release(level_ground(), 0.02);
   piles->forget();
   EXPECT_EQ(piles->release(level_ground(), 0.02)->news, PileNews::none);
 }
 
 TEST(SitePiles, WatchMayEndIt) {
-  const auto piles = make_site_piles(small_scene(), {}, 2, 0.2);
+  const auto piles = make_site_piles(scene_at_site(), {}, 2, 0.2);
   EXPECT_FALSE(piles->release(level_ground(), 0.02, [](const SiteMoment& m) { return m.time < 0.1; }));
 }
 
 TEST(SitePiles, RefuseWhatIsNotPossible) {
-  const auto piles = make_site_piles(small_scene(), {}, 2, 0.2);
+  const auto piles = make_site_piles(scene_at_site(), {}, 2, 0.2);
   EXPECT_EQ(error_of([&] { piles->release(level_ground(), 0); }),
             "slide: thickness of the slab is 0, must be positive");
   EXPECT_NE(error_of([&] {
               piles->release(level_ground(1.3F), 0.02);
             }).find("slide: the lower side of the panel above the ground is -"),
             std::string::npos);
-  EXPECT_EQ(error_of([] { make_site_piles(small_scene(), {}, 4, 0.2); }),
+  EXPECT_EQ(error_of([] { make_site_piles(scene_at_site(), {}, 4, 0.2); }),
             "slide: number of dimensions is 4, must be 2 or 3");
-  EXPECT_EQ(error_of([] { make_site_piles(small_scene(), {}, 2, -1); }),
+  EXPECT_EQ(error_of([] { make_site_piles(scene_at_site(), {}, 2, -1); }),
             "slide: model error is -1, must be at least 0");
   EXPECT_EQ(piles->release(level_ground(), 0.02)->number, 1) << "it goes on";
 }
 
 TEST(SitePiles, AHillUnderThePanelIsSeen) {
-  SlideScene scene = small_scene();
+  SlideScene scene = scene_at_site();
   HeightMap hill = level_ground();
   const GridGeometry& grid = hill.geometry();
   for (std::size_t k = 0; k < grid.size(); ++k)

@@ -5,12 +5,13 @@
 #include <numeric>
 #include <vector>
 
+#include "../../../degree.hpp"
+
 #include "aeolian_core/bedforms/height_map/ripple_model.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 
-constexpr double degree = M_PI / 180;
 constexpr double hop = 0.01;
 constexpr double erosion_rate = 1e-4;
 

@@ -2,6 +2,7 @@
 #include <complex>
 #include <vector>
 
+#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
@@ -10,8 +11,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 Forcing blown(double friction_velocity, double diameter) {
   Grain grain;

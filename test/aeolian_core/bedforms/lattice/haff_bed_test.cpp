@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 HaffParameters limited() {
   HaffParameters parameters;

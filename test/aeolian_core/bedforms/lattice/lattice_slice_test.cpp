@@ -5,13 +5,12 @@
 #include <map>
 #include <numeric>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 SliceParameters small(int reptation = 8) {
   SliceParameters parameters;

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double cm = 0.01;
 const TriangularRipple shape(5 * degree, 10 * degree);
 

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 TEST(TriangularRippleTest, has_the_index_of_the_thesis) {
   const TriangularRipple shape(5 * degree, 10 * degree);

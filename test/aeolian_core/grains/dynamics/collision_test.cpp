@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "grain_radius.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
@@ -7,7 +8,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double radius = 0.01;
 constexpr double delay = 1e-6;  // before two grains meet [s]
 
 template <int Dim>

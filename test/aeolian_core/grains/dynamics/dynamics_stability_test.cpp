@@ -2,6 +2,7 @@
 #include <string>
 
 #include "../../../error_of.hpp"
+#include "grain_radius.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
@@ -10,8 +11,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double radius = 0.01;
 
 GrainWorld<2> box(double width) {
   GrainWorld<2> world;

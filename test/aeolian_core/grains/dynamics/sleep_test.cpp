@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "grain_radius.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
@@ -7,8 +8,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double radius = 0.01;
 
 GrainDynamics<2> settled_bed(int columns, int rows) {
   GrainWorld<2> world;

@@ -1,13 +1,12 @@
 #include "aeolian_core/grains/impacts/impact.hpp"
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include "small_bed.hpp"
 #include <gtest/gtest.h>
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 const Bed<2>& loose_bed() {
   static const Bed<2> bed = make_bed(small_recipe(), soft_discs(), 1);

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 class Sample {
  public:

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
@@ -14,7 +15,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int rays = 20000;
 
 ReboundModel::Means means(const ReboundModel::Parameters& p, double angle, double slope = 0,
@@ -80,12 +80,12 @@ TEST(ReboundModelTest, draws_have_the_means_of_the_rays) {
   const Impact impact{3, 12 * degree};
   const ReboundModel::Means expected = model.means(impact, rays);
   RandomStream random(1, 1);
-  const int count = 40000;
+  const int draws = 40000;
   double upward = 0;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < draws; ++i)
     if (const auto grain = model.sample(impact, random))
       upward += grain->velocity.z() / impact.speed / std::sin(impact.angle);
-  EXPECT_NEAR(upward / count, expected.upward, 4 * 0.5 / std::sqrt(count));
+  EXPECT_NEAR(upward / draws, expected.upward, 4 * 0.5 / std::sqrt(draws));
 }
 
 TEST(ReboundModelTest, never_faster_than_the_impact) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/grain.hpp"
@@ -11,8 +12,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 TEST(ReptationTest, hops_on_slopes_are_those_of_the_bed_frame) {
   const double slope = 12 * degree, along = 0.3, away = 0.5;  // spec 3.7: (2 vn / g)(vt - vn tan)

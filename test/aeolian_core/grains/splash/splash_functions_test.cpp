@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
@@ -18,8 +19,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 TEST(SplashFunctionsTest, no_event_has_more_energy_or_momentum_than_its_impact) {
   for (const std::string& name : splash_names())

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -15,8 +16,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 double unit() { return std::sqrt(gravity * Grain{}.diameter); }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include "../../../temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 PileDesign design() {
   PileDesign d;
