@@ -59,13 +59,13 @@ struct SnowBonding {
   /// degree = (age / t_b)^exponent: what a bond holds goes with its area, twice the exponent 0.18 by which
   /// the ratio of bond to grain grows (van Herwijnen & Miller 2013).
   double exponent = 0.36;
-  double fresh_cohesion = 4;         ///< gamma of fresh snow over that of sand
-  double bonded_cohesion = 32;       ///< and of fully bonded snow
-  double skin = 4;                   ///< thickness whose mean age is that of the surface [parcels]
-  double edge = 2;                   ///< least height of an exposed edge of sintered snow [parcels]
-  double sintered_share = 0.05;      ///< of the lift-off from loose snow, at an edge above its threshold
-  double initial_age = 0;            ///< of the loose snow of a new map [s]
-  double snowfall = 0;               ///< [kg m^-2 s^-1]
+  double fresh_cohesion = 4;     ///< gamma of fresh snow over that of sand
+  double bonded_cohesion = 32;   ///< and of fully bonded snow
+  double skin = 4;               ///< thickness whose mean age is that of the surface [parcels]
+  double edge = 2;               ///< least height of an exposed edge of sintered snow [parcels]
+  double sintered_share = 0.05;  ///< of the lift-off from loose snow, at an edge above its threshold
+  double initial_age = 0;        ///< of the loose snow of a new map [s]
+  double snowfall = 0;           ///< [kg m^-2 s^-1]
 };
 
 /// All of it in SI units and radians.
