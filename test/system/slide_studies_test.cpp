@@ -63,7 +63,6 @@ TEST_F(SlideStudies, ATableIsTheSameStoppedSharedOrAtOnce) {
   ASSERT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(piles("twice"), piles("alone"));
 
-  if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "there is no mpirun";
   const std::string shared = "cd " + folder_.path() +
                              " && mpirun --allow-run-as-root --oversubscribe -n 2 " AEOLIAN_BIN
                              "/slide_snow --make-table piles.yaml --threads 1 --out shared > log 2>&1";

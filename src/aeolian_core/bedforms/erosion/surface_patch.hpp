@@ -16,38 +16,39 @@ struct SurfacePatch {
   float height, slope_x, slope_y;
 };
 
-/// `x`, `y` in cells from the centre of cell (0, 0), on the ring of a periodic bed; beyond the centres of an
-/// open one's outer cells the surface is level.
+/// The square between four cells' centres in which a place lies. `x`, `y` in cells from the centre of cell
+/// (0, 0), on the ring of a periodic bed; beyond the centres of an open one's outer cells the surface is
+/// level.
+struct SurfaceSquare {
+  SurfaceSquare(const ErodibleBed& bed, float x, float y) {
+    const float cx = std::clamp(x, 0.0F, bed.last_x());
+    const float cy = std::clamp(y, 0.0F, bed.last_y());
+    const int ix = static_cast<int>(cx);
+    const int iy = static_cast<int>(cy);
+    tx = cx - static_cast<float>(ix);
+    ty = cy - static_cast<float>(iy);
+    south = bed.surface() + iy * bed.stride() + ix;
+    north = south + bed.stride();
+    low = south[0] + tx * (south[1] - south[0]);
+    high = north[0] + tx * (north[1] - north[0]);
+  }
+  float height() const { return low + ty * (high - low); }
+
+  float tx, ty;  ///< of the place in the square
+  const float* south;
+  const float* north;
+  float low, high;  ///< of the southern and northern side beside the place
+};
+
 inline SurfacePatch patch_at(const ErodibleBed& bed, float x, float y) {
-  const float cx = std::clamp(x, 0.0F, bed.last_x());
-  const float cy = std::clamp(y, 0.0F, bed.last_y());
-  const int ix = static_cast<int>(cx);
-  const int iy = static_cast<int>(cy);
-  const float tx = cx - static_cast<float>(ix);
-  const float ty = cy - static_cast<float>(iy);
-  const float* south = bed.surface() + iy * bed.stride() + ix;
-  const float* north = south + bed.stride();
-  const float low = south[0] + tx * (south[1] - south[0]);
-  const float high = north[0] + tx * (north[1] - north[0]);
+  const SurfaceSquare s(bed, x, y);
   const auto cell = static_cast<float>(bed.geometry().cell());
-  return {low + ty * (high - low), ((1 - ty) * (south[1] - south[0]) + ty * (north[1] - north[0])) / cell,
-          (high - low) / cell};
+  return {s.height(), ((1 - s.ty) * (s.south[1] - s.south[0]) + s.ty * (s.north[1] - s.north[0])) / cell,
+          (s.high - s.low) / cell};
 }
 
 /// Its height alone.
-inline float height_at(const ErodibleBed& bed, float x, float y) {
-  const float cx = std::clamp(x, 0.0F, bed.last_x());
-  const float cy = std::clamp(y, 0.0F, bed.last_y());
-  const int ix = static_cast<int>(cx);
-  const int iy = static_cast<int>(cy);
-  const float tx = cx - static_cast<float>(ix);
-  const float ty = cy - static_cast<float>(iy);
-  const float* south = bed.surface() + iy * bed.stride() + ix;
-  const float* north = south + bed.stride();
-  const float low = south[0] + tx * (south[1] - south[0]);
-  const float high = north[0] + tx * (north[1] - north[0]);
-  return low + ty * (high - low);
-}
+inline float height_at(const ErodibleBed& bed, float x, float y) { return SurfaceSquare(bed, x, y).height(); }
 
 /// Height of the cell that lies so far from another; beyond an open border that of the outermost.
 inline float height_beside(const ErodibleBed& bed, CellIndex c, int dx, int dy) {
