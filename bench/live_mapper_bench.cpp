@@ -9,13 +9,12 @@
 
 #include "child_process.hpp"
 #include "own_master.hpp"
+#include "scanned_ripples.hpp"
 #include <fmt/format.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "aeolian_core/surface/random.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 
@@ -23,8 +22,6 @@ namespace {
 
 using namespace aeolian;
 
-constexpr double height_of_sensor = 1.2;
-constexpr double noise = 0.0006;
 constexpr double rate = 10;
 constexpr int warm_up = 300;  // a still bed is known to be still after some 20 s
 constexpr int measured = 150;
@@ -39,35 +36,17 @@ struct Scene {
 };
 
 sensor_msgs::PointCloud2 cloud_of(const Scene& scene, double time, std::uint64_t number) {
-  RandomStream random(1, number);
-  PointCloud cloud;
-  for (int v = 0; v < scene.rows; ++v)
-    for (int u = 0; u < scene.columns; ++u) {
-      const double x = scene.width * ((u + 0.5) / scene.columns - 0.5);
-      const double y = scene.width * ((v + 0.5) / scene.rows - 0.5);
-      const double bed = scene.ripples / 2 * std::sin(2 * M_PI * (x - 0.0005 * time) / 0.1);
-      cloud.push_back(static_cast<float>(x), static_cast<float>(y),
-                      static_cast<float>(height_of_sensor - bed + noise * random.normal()));
-    }
-  sensor_msgs::PointCloud2 message = to_message(cloud, static_cast<std::size_t>(scene.columns));
+  const bench::ScannedRipples ripples{scene.columns, scene.rows, scene.width, scene.width, scene.ripples};
+  sensor_msgs::PointCloud2 message =
+      to_message(ripples.at(time, number), static_cast<std::size_t>(scene.columns));
   message.header.frame_id = "camera";
   return message;
-}
-
-void send_pose(tf2_ros::StaticTransformBroadcaster& broadcaster) {
-  geometry_msgs::TransformStamped pose;
-  pose.header.stamp = ros::Time::now();
-  pose.header.frame_id = "map";
-  pose.child_frame_id = "camera";
-  pose.transform.translation.z = height_of_sensor;
-  pose.transform.rotation.x = 1;
-  broadcaster.sendTransform(pose);
 }
 
 void measure(const Scene& scene, ros::NodeHandle& node) {
   const ChildProcess mapper(
       {std::string(AEOLIAN_BIN) + "/height_mapper", "_cell_size:=0.002", "_min_x:=-1", "_min_y:=-1",
-       "_length_x:=2", "_length_y:=2", "_range_sigma:=" + std::to_string(noise),
+       "_length_x:=2", "_length_y:=2", "_range_sigma:=" + std::to_string(bench::ScannedRipples::noise),
        fmt::format("_incremental:={}", scene.incremental)},
       SIGINT, ChildProcess::Output::dropped);
   ros::Publisher points = node.advertise<sensor_msgs::PointCloud2>("points", 4);
@@ -124,7 +103,7 @@ int main(int argc, char** argv) {
   while (!ros::master::check()) ros::WallDuration(0.1).sleep();
   ros::NodeHandle node;
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  send_pose(broadcaster);
+  broadcaster.sendTransform(bench::camera_pose(ros::Time::now(), 0, 0));
 
   std::printf(
       "| scene, 1000 x 1000 cells, 10 Hz | points | %% of a core | maps/s | MB/s |\n|---|---|---|---|---|\n");

@@ -14,50 +14,26 @@
 
 #include "child_process.hpp"
 #include "own_master.hpp"
-#include <geometry_msgs/TransformStamped.h>
+#include "scanned_ripples.hpp"
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "aeolian_core/surface/random.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 
 namespace {
 
 using namespace aeolian;
 
-constexpr double height_of_sensor = 1.2;
 constexpr double rate = 10;
 constexpr int warm_up = 400;   // so that there are forecasts to be scored
 constexpr int measured = 600;  // a minute
 
 sensor_msgs::PointCloud2 cloud_at(double time, std::uint64_t number) {
-  RandomStream random(1, number);
-  PointCloud cloud;
-  for (int v = 0; v < 480; ++v)
-    for (int u = 0; u < 640; ++u) {
-      const double x = (u + 0.5) / 640 - 0.5;
-      const double y = 0.5 * ((v + 0.5) / 480 - 0.5);
-      const double bed = 0.0025 * std::sin(2 * M_PI * (x - 0.0005 * time) / 0.1);
-      cloud.push_back(static_cast<float>(x), static_cast<float>(y),
-                      static_cast<float>(height_of_sensor - bed + 0.0006 * random.normal()));
-    }
-  sensor_msgs::PointCloud2 message = to_message(cloud, 640);
+  sensor_msgs::PointCloud2 message = to_message(bench::ScannedRipples().at(time, number), 640);
   message.header.frame_id = "camera";
   return message;
-}
-
-void send_pose(tf2_ros::StaticTransformBroadcaster& broadcaster) {
-  geometry_msgs::TransformStamped pose;
-  pose.header.stamp = ros::Time::now();
-  pose.header.frame_id = "map";
-  pose.child_frame_id = "camera";
-  pose.transform.translation.x = 0.5;
-  pose.transform.translation.y = 0.25;
-  pose.transform.translation.z = height_of_sensor;
-  pose.transform.rotation.x = 1;
-  broadcaster.sendTransform(pose);
 }
 
 /// A node and what it had used when the warm-up was over.
@@ -121,7 +97,7 @@ int main(int argc, char** argv) {
   while (!ros::master::check()) ros::WallDuration(0.1).sleep();
   ros::NodeHandle node;
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  send_pose(broadcaster);
+  broadcaster.sendTransform(bench::camera_pose(ros::Time::now(), 0.5, 0.25));
   std::printf(
       "| ~publish_period | height_mapper | wind_estimator | forecaster | comparator | all, %% of a core |\n"
       "|---|---|---|---|---|---|\n");

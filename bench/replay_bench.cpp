@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 
+#include "scanned_ripples.hpp"
 #include "temporary_folder.hpp"
 #include <benchmark/benchmark.h>
 #include <geometry_msgs/TwistStamped.h>
@@ -17,7 +18,6 @@
 #include <sys/resource.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/twin/report.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/replay/bag_source.hpp"
@@ -33,35 +33,10 @@ using namespace aeolian;
 
 constexpr double seconds = 60;
 constexpr double rate = 10;  // of clouds and wind [Hz]
-constexpr double sensor_height = 1.2;
-constexpr double noise = 0.0006;
-
-/// Ripples of 10 cm and 5 mm that migrate at 3 cm/min, seen from above.
-PointCloud cloud_at(double time, std::uint64_t number) {
-  RandomStream random(1, number);
-  PointCloud cloud;
-  cloud.reserve(640 * 480);
-  for (int v = 0; v < 480; ++v)
-    for (int u = 0; u < 640; ++u) {
-      const double x = (u + 0.5) / 640 - 0.5;
-      const double y = 0.5 * ((v + 0.5) / 480 - 0.5);
-      const double bed = 0.0025 * std::sin(2 * M_PI * (x - 0.0005 * time) / 0.1);
-      cloud.push_back(static_cast<float>(x), static_cast<float>(y),
-                      static_cast<float>(sensor_height - bed + noise * random.normal()));
-    }
-  return cloud;
-}
 
 void write_frames(rosbag::Bag& bag, const ros::Time& stamp) {
   tf2_msgs::TFMessage frames;
-  geometry_msgs::TransformStamped& pose = frames.transforms.emplace_back();
-  pose.header.stamp = stamp;
-  pose.header.frame_id = "map";
-  pose.child_frame_id = "camera";
-  pose.transform.translation.x = 0.5;
-  pose.transform.translation.y = 0.25;
-  pose.transform.translation.z = sensor_height;
-  pose.transform.rotation.x = 1;
+  frames.transforms.push_back(bench::camera_pose(stamp, 0.5, 0.25));
   write_static_frames(bag, frames, stamp, "replay_bench");
 }
 
@@ -77,7 +52,8 @@ struct Day {
     write_frames(file, start);
     for (int i = 0; i < seconds * rate; ++i) {
       const double time = i / rate;
-      sensor_msgs::PointCloud2 points = to_message(cloud_at(time, static_cast<std::uint64_t>(i)), 640);
+      sensor_msgs::PointCloud2 points =
+          to_message(bench::ScannedRipples().at(time, static_cast<std::uint64_t>(i)), 640);
       geometry_msgs::TwistStamped wind;
       points.header.stamp = wind.header.stamp = start + ros::Duration(time);
       points.header.frame_id = "camera";
