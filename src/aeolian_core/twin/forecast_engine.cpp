@@ -186,14 +186,14 @@ ForecastEngine::Taken ForecastEngine::take_map(const HeightMap& map, double time
   return taken;
 }
 
-void ForecastEngine::defer(const ForecastJob& job) {
-  if (last_forecast_ == job.time) last_forecast_ = forecast_before_;
+void ForecastEngine::defer(double job_time) {
+  if (last_forecast_ == job_time) last_forecast_ = forecast_before_;
 }
 
-void ForecastEngine::begin(const ForecastJob& job) {
-  if (!last_map_ || job.time > *last_map_) return;  // the engine has begun anew
+void ForecastEngine::begin(double job_time) {
+  if (!last_map_ || job_time > *last_map_) return;  // the engine has begun anew
   forecast_before_ = last_forecast_;
-  last_forecast_ = job.time;
+  last_forecast_ = job_time;
 }
 
 EnsembleForecast ForecastEngine::run(const ForecastJob& job) const {

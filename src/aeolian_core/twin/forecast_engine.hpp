@@ -69,10 +69,10 @@ class ForecastEngine {
   /// learned.
   Taken take_map(const HeightMap& map, double time);
 
-  /// A job that has to wait: the next map is due as well and may take its place. begin() when it is run after
-  /// all.
-  void defer(const ForecastJob& job);
-  void begin(const ForecastJob& job);
+  /// The job of the map of that time [s] has to wait: the next map is due as well and may take its place.
+  /// begin() when it is run after all.
+  void defer(double job_time);
+  void begin(double job_time);
 
   /// May run in another thread while maps and wind are taken.
   EnsembleForecast run(const ForecastJob& job) const;

@@ -1,7 +1,5 @@
-#include <condition_variable>
 #include <memory>
-#include <optional>
-#include <thread>
+#include <mutex>
 
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -12,6 +10,7 @@
 #include "aeolian_core/wind/direction.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/engine_settings.hpp"
+#include "aeolian_twin/nodes/job_thread.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 #include "aeolian_twin/nodes/wind_words.hpp"
@@ -22,14 +21,6 @@ namespace aeolian {
 class Forecaster : public Node {
  public:
   Forecaster() : Node(describe_forecaster()) {}
-  ~Forecaster() override {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      stop_ = true;
-    }
-    wake_.notify_one();
-    if (worker_.joinable()) worker_.join();
-  }
 
  private:
   /// A job and the header of its map.
@@ -62,7 +53,7 @@ class Forecaster : public Node {
           take_map(map, header);
         },
         [this](const std::string& reason) { bad("map", reason); }, wanted);
-    worker_ = std::thread([this] { work(); });
+    worker_.start([this](const Job& job) { run(job); });
   }
 
   void take_wind(const grid_map_msgs::GridMap::ConstPtr& message) {
@@ -102,7 +93,6 @@ class Forecaster : public Node {
       if (taken.learned) publish(*taken.learned, header);
       if (taken.job) submit({std::move(*taken.job), header});
     }
-    wake_.notify_one();
     good("map", "in use");
   }
 
@@ -134,35 +124,23 @@ class Forecaster : public Node {
 
   /// Hands a job to the worker; one that still waits there is replaced, so that the newest map wins.
   void submit(Job job) {
-    if (working_) {
+    const double time = job.job.time;
+    if (worker_.submit(std::move(job))) {
+      good("speed", "forecasts keep up with the maps");
+    } else {
       bad("speed",
           fmt::format("a forecast still runs when the next is due after {} s (~period): the newest map waits",
                       engine_->settings().period));
-      engine_->defer(job.job);
-    } else {
-      good("speed", "forecasts keep up with the maps");
-    }
-    next_ = std::move(job);
-  }
-
-  void work() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (true) {
-      wake_.wait(lock, [this] { return stop_ || next_; });
-      if (stop_) return;
-      const Job job = std::move(*next_);
-      next_.reset();
-      engine_->begin(job.job);
-      working_ = true;
-      lock.unlock();
-      run(job);
-      lock.lock();
-      working_ = false;
+      engine_->defer(time);
     }
   }
 
   void run(const Job& job) {
     try {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        engine_->begin(job.job.time);
+      }
       const ros::WallTime begin = ros::WallTime::now();
       const EnsembleForecast result = engine_->run(job.job);
       for (const Forecast& forecast : result.forecasts) {
@@ -195,11 +173,7 @@ class Forecaster : public Node {
 
   std::mutex mutex_;  ///< guards what follows, but for what of the engine is constant
   std::unique_ptr<ForecastEngine> engine_;
-  std::condition_variable wake_;
-  std::optional<Job> next_;
-  bool working_ = false;
-  bool stop_ = false;
-  std::thread worker_;
+  JobThread<Job> worker_;  ///< the last member: it uses the others
 };
 
 NodeDescription describe_forecaster() {

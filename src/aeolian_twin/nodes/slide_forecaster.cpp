@@ -1,12 +1,8 @@
 #include <atomic>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +16,7 @@
 #include "aeolian_core/slide/piles/site_piles.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
+#include "aeolian_twin/nodes/job_thread.hpp"
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 #include "aeolian_twin/nodes/slide_settings.hpp"
@@ -58,12 +55,6 @@ std::string words(PileNews news) {
 class SlideForecaster : public Node {
  public:
   SlideForecaster() : Node(describe_slide_forecaster()) {}
-  ~SlideForecaster() override {
-    stop_ = true;
-    { const std::lock_guard<std::mutex> lock(mutex_); }
-    wake_.notify_one();
-    if (worker_.joinable()) worker_.join();
-  }
 
  private:
   /// All that an event needs.
@@ -94,7 +85,7 @@ class SlideForecaster : public Node {
     slab_subscriber_ = nh().subscribe("slab", 100, &SlideForecaster::take_slab, this);
     servers_ = {nh().advertiseService("release", &SlideForecaster::release, this),
                 nh().advertiseService("clear_pile", &SlideForecaster::clear, this)};
-    worker_ = std::thread([this] { work(); });
+    worker_.start([this](const Job& job) { run(job); });
     timer_ = nh().createWallTimer(look, [this](const ros::WallTimerEvent&) { begin_next(); });
   }
 
@@ -141,14 +132,12 @@ class SlideForecaster : public Node {
 
   /// Hands the next slab to the worker when that has nothing to do, with the map and the panel as they are.
   void begin_next() {
-    if (waiting_.empty()) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (working_ || next_) return;
+    if (waiting_.empty() || !worker_.idle()) return;
     const double thickness = waiting_.front();
     waiting_.pop_front();
     try {
-      next_ = Job{placed(), thickness, receiver_->map(), parameters().text("frame_id"), ros::Time::now()};
-      wake_.notify_one();
+      worker_.submit(
+          {placed(), thickness, receiver_->map(), parameters().text("frame_id"), ros::Time::now()});
     } catch (const Error& error) {
       bad("panel", error.what());
     }
@@ -176,21 +165,6 @@ class SlideForecaster : public Node {
     piles_of_ = slide;
   }
 
-  void work() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (true) {
-      wake_.wait(lock, [this] { return stop_ || next_; });
-      if (stop_) return;
-      const Job job = std::move(*next_);
-      next_.reset();
-      working_ = true;
-      lock.unlock();
-      run(job);
-      lock.lock();
-      working_ = false;
-    }
-  }
-
   void run(const Job& job) {
     try {
       if (!same_place(job.slide, piles_of_)) make_piles(job.slide);
@@ -200,7 +174,7 @@ class SlideForecaster : public Node {
         good("slide", fmt::format("event {}: {:.2f} s after release the fastest snow moves at {:.2f} m/s, {} "
                                   "particles move",
                                   m.event, m.time, m.fastest, m.awake));
-        return !stop_;
+        return !worker_.stopping();
       });
       if (event) publish(*event, job, (ros::WallTime::now() - begin).toSec());
     } catch (const Error& error) {
@@ -235,13 +209,8 @@ class SlideForecaster : public Node {
   std::unique_ptr<SitePiles> piles_;  ///< the worker's, once it runs
   PlacedSlide piles_of_;              ///< the same
 
-  std::mutex mutex_;  ///< guards what follows
-  std::condition_variable wake_;
-  std::optional<Job> next_;
-  bool working_ = false;
-  std::atomic<bool> stop_{false};    ///< read without the lock, too
-  std::atomic<bool> forget_{false};  ///< the same
-  std::thread worker_;
+  std::atomic<bool> forget_{false};  ///< asked for by the node, done by the worker
+  JobThread<Job> worker_;            ///< the last member: it uses the others
 };
 
 NodeDescription describe_slide_forecaster() {

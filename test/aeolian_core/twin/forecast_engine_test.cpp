@@ -137,11 +137,11 @@ TEST(ForecastEngine, AJobThatWaitsGivesWayToANewerMap) {
   const auto first = engine.take_map(flat(), epoch + 10);
   const auto second = engine.take_map(flat(), epoch + 20);
   ASSERT_TRUE(first.job && second.job);
-  engine.defer(*second.job);
+  engine.defer(second.job->time);
   const auto third = engine.take_map(flat(), epoch + 21);
   ASSERT_TRUE(third.job);
-  engine.defer(*third.job);
-  engine.begin(*third.job);
+  engine.defer(third.job->time);
+  engine.begin(third.job->time);
   EXPECT_FALSE(engine.take_map(flat(), epoch + 30).job);
   EXPECT_TRUE(engine.take_map(flat(), epoch + 31).job);
 }
