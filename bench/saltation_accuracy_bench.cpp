@@ -47,6 +47,7 @@ void write_page() {
   flux_rows(table);
   sand_rows(table);
   mixture_rows(table);
+  step_rows(table);
   fmt::print(
       "# Accuracy of saltation\n\nPrinted by `./twin bench saltation_accuracy`. [T]: printed in Werner "
       "(1987); [R]: "

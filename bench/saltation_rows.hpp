@@ -13,6 +13,7 @@ void profile_rows(AccuracyTable& table);  ///< trajectories, winds, table 4.4, f
 void flux_rows(AccuracyTable& table);     ///< flux law, heights of flights
 void sand_rows(AccuracyTable& table);     ///< coarse sand, real sand
 void mixture_rows(AccuracyTable& table);  ///< several sizes
+void step_rows(AccuracyTable& table);     ///< how many steps states take
 /// @}
 
 constexpr double percent = 0.01;

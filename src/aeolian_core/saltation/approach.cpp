@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aeolian {
 namespace {
@@ -43,6 +44,7 @@ void Approach::take(const SteadyState& other) {
   if (first.size() != other.spectrum.size() || !(other.grain_stress[0] > 0)) return;
   spectrum_ = other.spectrum;
   for (std::size_t i = 0; i < share_.size(); ++i) share_[i] = other.grain_stress[i] / other.grain_stress[0];
+  if (other.mixing) mixing_ = *other.mixing;
 }
 
 void Approach::step() {
@@ -135,6 +137,9 @@ SteadyState Approach::state() const {
   s.launches = launches_;
   s.landings = landings_;
   s.spectrum = next_spectrum_;
+  AndersonMixing mixing = mixing_;
+  mixing.begin_anew();
+  s.mixing = std::make_shared<const AndersonMixing>(std::move(mixing));
   s.grain_mass = bed_.grain.mass();
   const double borne = bed_.atmosphere.density * (free_ * free_ - surface_ * surface_);
   s.grain_stress = next_share_;

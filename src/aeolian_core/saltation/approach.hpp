@@ -17,7 +17,7 @@ class Approach {
 
   /// The winds from now on: free, and at the surface, not above it [m/s].
   void set_winds(double free, double surface);
-  /// Spectrum and grains of another state, to begin with.
+  /// Spectrum and grains of another state, to begin with, and what is known of how they answer to changes.
   void take(const SteadyState& other);
 
   /// Flies the spectrum in the wind with the grains in it and lets it land.
@@ -27,7 +27,6 @@ class Approach {
   /// The same, mixed with the past, and with the surface wind that may bring the replacement to one; it stays
   /// below `most`. After a longer spectrum the step is only taken anew.
   void mix(double most);
-  void forget() { mixing_.forget(); }
 
   /// Where the last step's fast end cuts off grains: a longer spectrum. False where it cannot be longer.
   bool extend_if_cut_off();

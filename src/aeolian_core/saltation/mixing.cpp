@@ -1,36 +1,41 @@
 #include "aeolian_core/saltation/mixing.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include <Eigen/QR>
 
 namespace aeolian {
+namespace {
+
+constexpr double parallel = 1e-4;  ///< sine of the angle between changes that tell the same
+
+}  // namespace
 
 Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::VectorXd& g,
                                      const Eigen::VectorXd& weight) {
-  results_.push_back(g);
-  residuals_.push_back(weight.cwiseProduct(g - x));
-  if (results_.size() > static_cast<std::size_t>(memory_) + 1) {
-    results_.erase(results_.begin());
-    residuals_.erase(residuals_.begin());
+  Point now{g, weight.cwiseProduct(g - x)};
+  if (last_) changes_.push_back({now.result - last_->result, now.residual - last_->residual});
+  if (changes_.size() > static_cast<std::size_t>(memory_)) changes_.erase(changes_.begin());
+  last_ = std::move(now);
+  if (changes_.empty()) return g;
+  const auto columns = static_cast<Eigen::Index>(changes_.size());
+  Eigen::MatrixXd change(x.size(), columns);
+  Eigen::VectorXd inverse_norm(columns);
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    const Eigen::VectorXd& residual = changes_[static_cast<std::size_t>(i)].residual;
+    inverse_norm[i] = 1 / std::max(residual.norm(), std::numeric_limits<double>::min());
+    change.col(i) = inverse_norm[i] * residual;
   }
-  const auto differences = static_cast<Eigen::Index>(results_.size()) - 1;
-  if (differences == 0) return g;
-  Eigen::MatrixXd change(x.size(), differences);
-  for (Eigen::Index i = 0; i < differences; ++i)
-    change.col(i) = residuals_.back() - residuals_[static_cast<std::size_t>(i)];
-  // Normal equations, a little towards zero where differences are nearly parallel.
-  Eigen::MatrixXd normal = change.transpose() * change;
-  normal.diagonal() *= 1 + 1e-8;
-  const Eigen::VectorXd part = normal.colPivHouseholderQr().solve(change.transpose() * residuals_.back());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(parallel);
+  qr.compute(change);
+  const Eigen::VectorXd part = inverse_norm.cwiseProduct(Eigen::VectorXd(qr.solve(last_->residual)));
   Eigen::VectorXd mixed = g;
-  for (Eigen::Index i = 0; i < differences; ++i)
-    mixed -= part[i] * (g - results_[static_cast<std::size_t>(i)]);
+  for (std::size_t i = 0; i < changes_.size(); ++i)
+    mixed -= part[static_cast<Eigen::Index>(i)] * changes_[i].result;
   return mixed;
-}
-
-void AndersonMixing::forget() {
-  if (results_.empty()) return;
-  results_.erase(results_.begin(), results_.end() - 1);
-  residuals_.erase(residuals_.begin(), residuals_.end() - 1);
 }
 
 }  // namespace aeolian

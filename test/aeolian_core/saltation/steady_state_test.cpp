@@ -140,6 +140,22 @@ TEST(SteadyStateTest, bins_twice_as_fine_change_little) {
   EXPECT_NEAR(coarse.mass_flux() / fine.mass_flux(), 1, 0.01);
 }
 
+TEST(SteadyStateTest, a_neighbouring_wind_is_solved_in_a_few_steps_and_to_the_same_state) {
+  const SaltationSolver solver(thesis_bed(), thesis_splash(6));
+  SteadyState state = solver.solve(1);
+  for (const double u : {1.02, 1.04, 1.02, 1.0}) {
+    state = solver.solve(u, &state);
+    ASSERT_TRUE(state.steady()) << state.reason;
+    EXPECT_LE(state.iterations, 5) << u;
+    const SteadyState cold = solver.solve(u);
+    EXPECT_GT(cold.iterations, 8) << u;
+    EXPECT_NEAR(state.mass_flux(), cold.mass_flux(), 2e-3 * cold.mass_flux()) << u;
+    EXPECT_NEAR(state.surface_friction_velocity, cold.surface_friction_velocity,
+                3e-3 * cold.surface_friction_velocity)
+        << u;
+  }
+}
+
 TEST(SteadyStateTest, a_grid_that_is_too_short_is_extended) {
   const auto splash = DistributionSplash::thesis_case(1);
   const SteadyState grown = SaltationSolver(thesis_bed(), DistributionKernel(splash, 0.05, 1)).solve(1.25);
