@@ -3,6 +3,7 @@
 #include <string>
 
 #include "../temporary_folder.hpp"
+#include "bad_config.hpp"
 #include "program_outcome.hpp"
 #include <gtest/gtest.h>
 
@@ -30,14 +31,7 @@ class SlideSnow : public testing::Test {
     return run_program("slide_snow " + arguments, folder_.path());
   }
   void expect_refusal(const std::string& from, const std::string& to, const std::string& line) const {
-    std::string text = slide_config;
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    folder_.write("bad.yaml", text.replace(at, from.size(), to));
-    const Outcome outcome = run("--config bad.yaml --out results");
-    EXPECT_EQ(outcome.code, 1) << to;
-    EXPECT_EQ(outcome.err, "slide_snow: " + line + "\n");
-    EXPECT_FALSE(fs::exists(folder_.file("results"))) << to;
+    ConfiguredProgram{"slide_snow", slide_config}.expect_refusal(folder_, from, to, line);
   }
   const TemporaryFolder folder_;
 };

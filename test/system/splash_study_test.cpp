@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "../temporary_folder.hpp"
+#include "bad_config.hpp"
 #include "program_outcome.hpp"
 #include "running_program.hpp"
 #include <gtest/gtest.h>
@@ -42,14 +43,7 @@ class SplashStudy : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   void expect_refusal(const std::string& from, const std::string& to, const std::string& line) const {
-    std::string text = splash_config;
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    folder_.write("bad.yaml", text.replace(at, from.size(), to));
-    const Outcome outcome = run("--config bad.yaml --out results");
-    EXPECT_EQ(outcome.code, 1) << to;
-    EXPECT_EQ(outcome.err, "splash_study: " + line + "\n");
-    EXPECT_FALSE(fs::exists(folder_.file("results"))) << to;
+    ConfiguredProgram{"splash_study", splash_config}.expect_refusal(folder_, from, to, line);
   }
   const TemporaryFolder folder_;
 };
