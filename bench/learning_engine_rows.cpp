@@ -268,11 +268,17 @@ void scanned_day_rows(AccuracyTable& table, const std::string& folder) {
       "seconds, "
       "fused to a live map; open borders over which unknown sand comes; the wind to come unknown. A map each "
       "minute, forecasts of 5 minutes begun from 2 to 14 min, every two minutes, by `ForecastEngine` with "
-      "the forecaster's "
-      "defaults. The anemometer is wrong by a factor of 0.85 to 1.15. RMSE [mm] against the true surface, of "
-      "forecasts begun in the first ten minutes (meanwhile) and later (afterwards). Used: what forecasts "
-      "were "
-      "made with, which is what was given until what was learned is believed.");
+      "the "
+      "forecaster's defaults. The anemometer is wrong by a factor of 0.85 to 1.15. RMSE [mm] against the "
+      "true "
+      "surface, of forecasts begun in the first ten minutes (meanwhile) and later (afterwards). Used: what "
+      "forecasts were made with, which is what was given until what was learned is believed; reptation and "
+      "angle "
+      "are those found. Exact: what was given, had the anemometer been right. Known: afterwards, the wind to "
+      "come "
+      "known to the anemometer and beyond the reach of the borders, where neither weather nor inflow hides "
+      "what "
+      "was learned.");
   rows(table, outcomes.right, false, "The forecaster on scanned days, the anemometer right",
        "The same; there is little to learn.");
 }
