@@ -7,14 +7,17 @@
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/require.hpp"
+#include "aeolian_core/twin/bed_movement.hpp"
 #include "aeolian_core/twin/forecast_contest.hpp"
 
 namespace aeolian {
 namespace {
 
 constexpr Require require{"forecaster"};
-constexpr double beyond_doubt = 2;  // standard errors
-constexpr double kept_starts = 5;   // within the time of a forecast
+constexpr double beyond_doubt = 2;    // standard errors
+constexpr double kept_starts = 5;     // within the time of a forecast
+constexpr double least_movement = 2;  // standard deviations of a cell
+constexpr double longest_lesson = 3;  // learning periods
 
 void check(const ForecastEngine::Settings& settings) {
   const auto positive = [](double value, const char* name) {
@@ -88,33 +91,45 @@ bool ForecastEngine::is_due(double time) const {
 /// From the hindcast that ends with this map, if it is time for one.
 std::optional<ParameterLearner::Update> ForecastEngine::learn(const HeightMap& map, double time) {
   if (!learner_ || !settings_.learning) return std::nullopt;
-  const double period = lesson_ ? seconds_between(lesson_->time, time) : 0;
-  if (lesson_ && period < settings_.learning_period) return std::nullopt;
+  if (lesson_) {
+    if (seconds_between(lesson_->tried, time) < settings_.learning_period) return std::nullopt;
+    lesson_->tried = time;
+  }
   std::optional<ParameterLearner::Update> update;
-  if (lesson_) update = learn(*lesson_, map, period);
-  if (update && update->learned) judge(map, time);
-  if (lesson_) keep_start(*lesson_);
-  lesson_ = Lesson{time, layers_of(map, {layer::elevation, layer::ground})};
+  if (lesson_) {
+    update = learn(*lesson_, map, seconds_between(lesson_->time, time));
+    if (!update) return std::nullopt;
+    if (update->learned) judge(map, time);
+    keep_start(*lesson_);
+  }
+  lesson_ = Lesson{time, layers_of(map, {layer::elevation, layer::ground}), mean_variance(map), time};
   return update;
 }
 
-ParameterLearner::Update ForecastEngine::learn(const Lesson& lesson, const HeightMap& map, double period) {
+std::optional<ParameterLearner::Update> ForecastEngine::learn(const Lesson& lesson, const HeightMap& map,
+                                                              double period) {
   const auto nothing = [this](const std::string& why) {
     ParameterLearner::Update update;
     update.why_not = why;
     update.before = update.after = learner_->median();
     return update;
   };
-  if (period > 2 * settings_.learning_period)
-    return nothing("no map came within " + std::to_string(2 * settings_.learning_period) +
-                   " s of the last one learned from");
+  const double longest = longest_lesson * settings_.learning_period;
+  if (period > longest)
+    return nothing("no map came within " + std::to_string(longest) + " s of the last one learned from");
   const std::vector<WindSpell> wind = wind_.blew(lesson.time, period);
   if (wind.empty()) return nothing("the wind that blew is not known");
   for (const WindSpell& spell : wind)
     if (spell.longest_gap > settings_.wind.max_gap)
       return nothing("the wind has a gap of " + std::to_string(spell.longest_gap) + " s");
-  return learner_->learn(
-      hindcasts_.run(lesson.start, wind, {period}, learner_->members(), learner_->median()), 0, map);
+  const EnsembleForecast hindcast =
+      hindcasts_.run(lesson.start, wind, {period}, learner_->members(), learner_->median());
+  const double noise = std::sqrt((lesson.variance + mean_variance(map)) / 2);
+  if (rms_movement(lesson.start, hindcast.forecasts.front().map) < least_movement * noise) {
+    if (period + settings_.learning_period <= longest) return std::nullopt;
+    return nothing("the bed has hardly moved beyond the noise of the maps");
+  }
+  return learner_->learn(hindcast, 0, map);
 }
 
 /// Empty when it has a gap.

@@ -9,6 +9,7 @@
 #include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
+#include "aeolian_core/twin/bed_movement.hpp"
 #include "aeolian_core/twin/map_error.hpp"
 
 namespace aeolian {
@@ -150,7 +151,7 @@ TEST(ForecastEngine, EachStretchOfTimeTeachesOnce) {
   ForecastEngine engine = engine_with_wind(settings(true), 100);
   std::vector<double> lessons;
   for (int time = 10; time <= 90; ++time)
-    if (engine.take_map(flat(), epoch + time).learned) lessons.push_back(time);
+    if (engine.take_map(rippled(), epoch + time).learned) lessons.push_back(time);
   EXPECT_EQ(lessons, (std::vector<double>{30, 50, 70, 90}));
 }
 
@@ -176,6 +177,67 @@ TEST(ForecastEngine, AMapIsLearnedFromInTheWindThatBlewAndNotInThatWhichWasFores
   };
   EXPECT_NEAR(learned_in(0.5), 1, 0.02);
   EXPECT_GT(learned_in(0.42), 1.08);  // an anemometer that reads too little
+}
+
+/// The twin's own model moves ripples for half a minute and another.
+std::vector<HeightMap> moved_ripples() {
+  std::vector<HeightMap> beds{rippled()};
+  WindSpell breeze;
+  breeze.samples = {sample(0)};
+  breeze.weights = {1};
+  const TwinPhysics physics;
+  RippleModel model(physics.ripple);
+  for (int i = 0; i < 2; ++i) {
+    beds.push_back(beds.back());
+    model.advance(beds.back(), forcing_of(physics, breeze, {}), 30);
+  }
+  return beds;
+}
+
+/// What comes of maps of these beds each half minute, with a standard deviation of each cell [m].
+std::vector<std::optional<ParameterLearner::Update>> lessons_of(const std::vector<HeightMap>& beds,
+                                                                double standard_deviation) {
+  ForecastEngine::Settings chosen = settings(true);
+  chosen.learning_period = 30;
+  ForecastEngine engine = engine_with_wind(chosen, 100);
+  std::vector<std::optional<ParameterLearner::Update>> lessons;
+  double time = epoch + 10;
+  for (HeightMap map : beds) {
+    map.add(layer::variance, static_cast<float>(standard_deviation * standard_deviation));
+    lessons.push_back(engine.take_map(map, time).learned);
+    time += 30;
+  }
+  return lessons;
+}
+
+TEST(ForecastEngine, ALessonWaitsUntilTheBedHasMovedBeyondTheNoise) {
+  const std::vector<HeightMap> beds = moved_ripples();
+  // A live map takes the bed to be at rest until it is seen to move.
+  const std::vector<HeightMap> seen{beds[0], beds[0], beds[2]};
+  const auto hasty = lessons_of(seen, 1e-6);
+  ASSERT_TRUE(hasty[1] && hasty[1]->learned);
+  EXPECT_LT(hasty[1]->after.friction_velocity, 0.95);
+
+  const double noise = 0.6 * rms_movement(beds[0], beds[1]);  // two of which it has not moved
+  const auto patient = lessons_of(seen, noise);
+  EXPECT_FALSE(patient[1]);
+  ASSERT_TRUE(patient[2] && patient[2]->learned);
+  EXPECT_NEAR(patient[2]->after.friction_velocity, 1, 0.02);
+}
+
+TEST(ForecastEngine, ABedThatHardlyMovesTeachesNothing) {
+  ForecastEngine engine = engine_with_wind(settings(true), 100);
+  HeightMap map = rippled();
+  map.add(layer::variance, 1e-4F);
+  std::vector<double> told;
+  for (int time = 10; time <= 90; ++time) {
+    const auto update = engine.take_map(map, epoch + time).learned;
+    if (!update) continue;
+    told.push_back(time);
+    EXPECT_FALSE(update->learned);
+    EXPECT_NE(update->why_not.find("hardly moved"), std::string::npos);
+  }
+  EXPECT_EQ(told, (std::vector<double>{70}));
 }
 
 /// The twin's own model moves a bed by the minute in a wind, which the engine is told wrong by a factor.
@@ -256,12 +318,12 @@ TEST(ForecastEngine, WhatWasLoadedIsUsedUntilItIsRefuted) {
 
 TEST(ForecastEngine, NothingIsLearnedFromAMapThatComesTooLate) {
   ForecastEngine engine = engine_with_wind(settings(true), 100);
-  engine.take_map(flat(), epoch + 10);
-  const auto late = engine.take_map(flat(), epoch + 51).learned;
+  engine.take_map(rippled(), epoch + 10);
+  const auto late = engine.take_map(rippled(), epoch + 71).learned;
   ASSERT_TRUE(late);
   EXPECT_FALSE(late->learned);
-  EXPECT_NE(late->why_not.find("no map came within 40"), std::string::npos);
-  EXPECT_TRUE(engine.take_map(flat(), epoch + 71).learned);  // it was the start of the next lesson
+  EXPECT_NE(late->why_not.find("no map came within 60"), std::string::npos);
+  EXPECT_TRUE(engine.take_map(rippled(), epoch + 91).learned);  // it was the start of the next lesson
 }
 
 TEST(ForecastEngine, NothingIsLearnedWithoutTheWindThatBlew) {
