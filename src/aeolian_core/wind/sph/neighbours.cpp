@@ -11,8 +11,12 @@
 namespace aeolian::sph {
 namespace {
 
+/// Of the matrices of the corrections: that of a half space is 1/8.
+constexpr float least_whole = 0.2F;
+constexpr float least_beside = 0.02F;
+
 /// Inverse of a symmetric matrix given by its columns, or false where it tells too little.
-bool invert(const Four* m, Four* inverse) {
+bool invert(const Four* m, float least, Four* inverse) {
   const float a = m[0][0];
   const float b = 0.5F * (m[0][1] + m[1][0]);
   const float c = 0.5F * (m[0][2] + m[2][0]);
@@ -23,7 +27,7 @@ bool invert(const Four* m, Four* inverse) {
   const float v = c * e - b * f;
   const float w = b * e - c * d;
   const float determinant = a * u + b * v + c * w;
-  if (!(determinant > 0.2F)) return false;
+  if (!(determinant > least)) return false;
   const float by = 1 / determinant;
   inverse[0] = Four{u * by, v * by, w * by, 0};
   inverse[1] = Four{v * by, (a * f - c * c) * by, (b * c - a * e) * by, 0};
@@ -77,6 +81,7 @@ void NeighbourFinder::find(const CellOrder& cells, const std::vector<Four>& plac
   const std::size_t n = place.size();
   for (std::vector<std::size_t>* v : {&rows_.begin, &rows_.images, &rows_.end}) v->resize(n);
   for (std::vector<Four>& column : sums_.correction) column.resize(n);
+  for (std::vector<Four>& column : sums_.beside) column.resize(n);
   sums_.crowding.resize(n);
   sums_.diagonal.resize(n);
   static tbb::enumerable_thread_specific<Candidates> candidates;
@@ -166,7 +171,9 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
         if (near.who[h] != i) add(near.who[h], near.place[h] - at, near.pull[k]);
       }
       rows_.images[i] = next;
+      Four beside[3] = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
       if (at[3] < kernel_.support) {
+        invert(moment, least_beside, beside);
         const Four n = normal[i];
         for (std::size_t k = 0; k < hits; ++k) {
           const std::uint32_t h = near.hit[k];
@@ -178,8 +185,9 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
       }
       rows_.end[i] = next;
       Four inverse[3] = {Four{1, 0, 0, 1}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
-      invert(moment, inverse);
+      invert(moment, least_whole, inverse);
       for (int c = 0; c < 3; ++c) sums_.correction[c][i] = inverse[c];
+      for (int c = 0; c < 3; ++c) sums_.beside[c][i] = beside[c];
       crowding[3] = 0;
       sums_.crowding[i] = crowding;
       sums_.diagonal[i] = diagonal;

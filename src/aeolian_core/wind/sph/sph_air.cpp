@@ -168,12 +168,28 @@ void SphAir::press() {
                     {residual, time_ > 0 ? settings_.iterations : first_iterations}, pressure_);
   if (!(left <= 10 * residual)) ++guards_.unsolved;
   const NeighbourRows& rows = finder_.rows();
+  // A wall that bends holds the air that runs along it by a slope of pressure, so the pressure's image is
+  // that of its particle less this slope.
+  wall_drop_.resize(size());
+  for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      force_[i] = Four{};
+      wall_drop_[i] = 0;
+      const float own = pressure_[i];
+      for (std::size_t k = rows.begin[i]; k < rows.images[i]; ++k)
+        force_[i] += rows.gradient[k] * (pressure_[rows.who[k]] - own);
+      if (place_[i][3] >= settings_.support) continue;
+      Four beside{};
+      for (int axis = 0; axis < 3; ++axis) beside += finder_.sums().beside[axis][i] * force_[i][axis];
+      wall_drop_[i] = 2 * place_[i][3] * dot3(beside, normal_[i]);
+    }
+  });
   for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const float own = pressure_[i];
-      Four sum{};
-      for (std::size_t k = rows.begin[i]; k < rows.end[i]; ++k)
-        sum += rows.gradient[k] * (pressure_[rows.who[k]] - own);
+      Four sum = force_[i];
+      for (std::size_t k = rows.images[i]; k < rows.end[i]; ++k)
+        sum += rows.gradient[k] * (pressure_[rows.who[k]] - wall_drop_[rows.who[k]] - own);
       Four force{};
       for (int axis = 0; axis < 3; ++axis) force += finder_.sums().correction[axis][i] * sum[axis];
       force[3] = 0;

@@ -122,7 +122,7 @@ class SphAir {
   std::vector<Four> slope_[3];
   std::vector<Four> bend_;   ///< Laplacian of the velocity
   std::vector<Four> force_;  ///< gradient of the pressure
-  std::vector<float> pressure_, source_, greatest_;
+  std::vector<float> pressure_, source_, wall_drop_, greatest_;
 };
 
 }  // namespace aeolian::sph
