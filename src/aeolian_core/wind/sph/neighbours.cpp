@@ -15,26 +15,6 @@ namespace {
 constexpr float least_whole = 0.2F;
 constexpr float least_beside = 0.02F;
 
-/// Inverse of a symmetric matrix given by its columns, or false where it tells too little.
-bool invert(const Four* m, float least, Four* inverse) {
-  const float a = m[0][0];
-  const float b = 0.5F * (m[0][1] + m[1][0]);
-  const float c = 0.5F * (m[0][2] + m[2][0]);
-  const float d = m[1][1];
-  const float e = 0.5F * (m[1][2] + m[2][1]);
-  const float f = m[2][2];
-  const float u = d * f - e * e;
-  const float v = c * e - b * f;
-  const float w = b * e - c * d;
-  const float determinant = a * u + b * v + c * w;
-  if (!(determinant > least)) return false;
-  const float by = 1 / determinant;
-  inverse[0] = Four{u * by, v * by, w * by, 0};
-  inverse[1] = Four{v * by, (a * f - c * c) * by, (b * c - a * e) * by, 0};
-  inverse[2] = Four{w * by, (b * c - a * e) * by, (a * d - b * b) * by, 0};
-  return true;
-}
-
 }  // namespace
 
 /// The particles of the 27 cells around one, and what is worked out of them.

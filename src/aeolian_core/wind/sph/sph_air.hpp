@@ -92,8 +92,8 @@ class SphAir {
  private:
   static constexpr float far_shift = 0.1F;  ///< that a particle may be shifted in a step [spacings]
   /// Where between the old velocity (0) and the new (1) the air is free of divergence: at the middle no
-  /// energy is lost, a little later what the spacing does not resolve dies out.
-  static constexpr float implicitness = 0.6F;
+  /// energy is lost.
+  static constexpr float implicitness = 0.5F;
 
   void settle();
   void start();
