@@ -121,8 +121,10 @@ TEST(ThesisVolume, BlowsThroughAndItsLiftDependsOnTheSpeed) {  // traps 2 and 4
         east += u.east;
         lift[n] += u.up;
       }
-    ASSERT_GT(count, 10);           // Its air falls: most cells above are empty.
-    EXPECT_GT(north / count, 0.9);  // ApplyWind lets no particle be slower.
+    ASSERT_GT(count, 10);  // Its air falls: most cells above are empty.
+    // ApplyWind lets none be slower than the wind, but the limiter then shrinks what falls.
+    EXPECT_GT(north / count, 0.5);
+    EXPECT_LT(north / count, 2);
     EXPECT_NEAR(east / count, 0, 0.3);
     lift[n] /= count;
     EXPECT_TRUE(std::isnan(v.velocity(50, 0, 2 * v.top()).up));
