@@ -151,9 +151,10 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
         if (near.who[h] != i) add(near.who[h], near.place[h] - at, near.pull[k]);
       }
       rows_.images[i] = next;
-      Four beside[3] = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
       if (at[3] < kernel_.support) {
+        Four beside[3] = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
         invert(moment, least_beside, beside);
+        for (int c = 0; c < 3; ++c) sums_.beside[c][i] = beside[c];
         const Four n = normal[i];
         for (std::size_t k = 0; k < hits; ++k) {
           const std::uint32_t h = near.hit[k];
@@ -167,7 +168,6 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
       Four inverse[3] = {Four{1, 0, 0, 1}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
       invert(moment, least_whole, inverse);
       for (int c = 0; c < 3; ++c) sums_.correction[c][i] = inverse[c];
-      for (int c = 0; c < 3; ++c) sums_.beside[c][i] = beside[c];
       crowding[3] = 0;
       sums_.crowding[i] = crowding;
       sums_.diagonal[i] = diagonal;
