@@ -47,6 +47,8 @@ std::string name_of(WindBackend backend) {
       return "spectral";
     case WindBackend::sph:
       return "SPH";
+    case WindBackend::thesis_compatible:
+      return "thesis compatible";
     default:
       return "mass consistent";
   }
@@ -57,6 +59,7 @@ std::optional<WindBackend> backend_of(const std::string& word) {
   if (word == "spectral") return WindBackend::spectral;
   if (word == "mass_consistent") return WindBackend::mass_consistent;
   if (word == "sph") return WindBackend::sph;
+  if (word == "thesis_compatible") return WindBackend::thesis_compatible;
   return std::nullopt;
 }
 
@@ -127,6 +130,8 @@ TerrainWind::Solution& TerrainWind::solution(const HeightMap& surface, double di
     made->response = mass_consistent_response(surface, middle, relief, settings_.volume);
   if (made->backend == WindBackend::sph)
     made->response = sph_response(surface, middle, relief, settings_.sph);
+  if (made->backend == WindBackend::thesis_compatible)
+    made->response = thesis_response(surface, middle, relief, settings_.thesis);
   ++solutions_;
   if (settings_.sector == 0) solved_.clear();
   solved_.push_back(std::move(made));
@@ -145,6 +150,8 @@ std::unique_ptr<WindVolume> TerrainWind::volume(const HeightMap& surface, double
       return std::make_unique<MassConsistentVolume>(relief, direction, upwind, settings_.volume);
     case WindBackend::sph:
       return std::make_unique<SphVolume>(relief, direction, upwind, settings_.sph);
+    case WindBackend::thesis_compatible:
+      return std::make_unique<ThesisVolume>(relief, direction, upwind, settings_.thesis);
     default:
       return nullptr;
   }

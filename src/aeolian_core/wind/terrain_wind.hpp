@@ -6,15 +6,18 @@
 #include "aeolian_core/wind/mass_consistent_wind.hpp"
 #include "aeolian_core/wind/spectral_volume.hpp"
 #include "aeolian_core/wind/sph/sph_volume.hpp"
+#include "aeolian_core/wind/sph/thesis_volume.hpp"
 #include "aeolian_core/wind/wind_model.hpp"
 
 namespace aeolian {
 
-/// Models of the wind over relief. The air of particles is never chosen, only asked for.
-enum class WindBackend { log_law, spectral, mass_consistent, sph };
-/// As a WindField tells it: "log law", "spectral", "mass consistent", "SPH".
+/// Models of the wind over relief. The air of particles and the thesis' are never chosen, only asked for.
+enum class WindBackend { log_law, spectral, mass_consistent, sph, thesis_compatible };
+/// As a WindField tells it: "log law", "spectral", "mass consistent", "SPH", "thesis
+/// compatible".
 std::string name_of(WindBackend backend);
-/// The one that a flag or parameter names: log, spectral, mass_consistent, sph; nothing for any other word.
+/// The one that a flag or parameter names: log, spectral, mass_consistent, sph,
+/// thesis_compatible; nothing for any other word.
 std::optional<WindBackend> backend_of(const std::string& word);
 
 /// What is wanted of a wind.
@@ -35,6 +38,7 @@ struct TerrainWindSettings {
   double change = 0.01;
   MassConsistentVolume::Settings volume;
   SphSettings sph;
+  ThesisVolumeSettings thesis;
 };
 
 /// The wind at the surface of a map, by the model that suits its relief. Solved once for each sector of

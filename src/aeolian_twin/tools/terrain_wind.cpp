@@ -24,8 +24,8 @@ constexpr const char* description =
     R"(The wind over a map (GeoTIFF with a band elevation [m]), from what one anemometer says.
 
 Models: log (the same everywhere), spectral (linear theory: slopes up to 0.3, with the air separated behind steep lees),
-mass_consistent (steep relief, cliffs), sph (a box of air made of particles; only when asked for); auto takes the one of
-the others that suits the relief. Without --anemometer the reading is that
+mass_consistent (steep relief, cliffs); only when asked for: sph (a box of air made of particles) and thesis_compatible
+(that of Dobusch 2016 with its defects, for comparison only); auto takes the one of the others that suits the relief. Without --anemometer the reading is that
 of level surroundings of the map; with it, the surroundings are found of which the relief makes that reading.
 
 Written to DIR: wind.tif (friction velocity, direction, separated air, speed-up), speed_up.png, summary.yaml, and with
@@ -74,6 +74,8 @@ void blow(const Options& o) {
   settings.relief.roughness = o.roughness;
   settings.backend = backend_of(o.model);
   settings.sector = 0;
+  settings.thesis.air.wind = o.speed;
+  settings.thesis.height = o.height;
   TerrainWind model(settings);
   run.shortest = std::max(settings.relief.shortest(), 4 * run.map.geometry().cell());
   run.steepness = steepness(wind_relief(run.map, run.shortest));
@@ -115,8 +117,8 @@ int run(int argc, char** argv) {
   app.add_option("--roughness", o.roughness, "aerodynamic roughness length of the ground [m]")
       ->check(CLI::Range(1e-8, 10.0))
       ->capture_default_str();
-  app.add_option("--model", o.model, "auto, log, spectral, mass_consistent or sph")
-      ->check(CLI::IsMember({"auto", "log", "spectral", "mass_consistent", "sph"}))
+  app.add_option("--model", o.model, "auto, log, spectral, mass_consistent, sph or thesis_compatible")
+      ->check(CLI::IsMember({"auto", "log", "spectral", "mass_consistent", "sph", "thesis_compatible"}))
       ->capture_default_str();
   app.add_option("--probes", o.probes, "CSV of points in the air");
   app.add_option("--out", o.out, "folder for the results")->required();

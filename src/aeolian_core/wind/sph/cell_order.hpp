@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace aeolian::sph {
 struct Torus {
   float length_x = 0, length_y = 0, height = 0;
 };
+
+/// A coordinate brought back into a box that repeats.
+inline float wrapped(float at, float length) {
+  at -= length * std::floor(at / length);
+  return at < length ? at : 0;
+}
 
 /// Particles in the order of the cells they are in: a counting sort. Cells are at least as long as the
 /// kernel's support, x fastest.

@@ -11,25 +11,9 @@
 namespace aeolian::sph {
 namespace {
 
-/// Inverse of a symmetric matrix given by its columns, or false where it tells too little.
-bool invert(const Four* m, Four* inverse) {
-  const float a = m[0][0];
-  const float b = 0.5F * (m[0][1] + m[1][0]);
-  const float c = 0.5F * (m[0][2] + m[2][0]);
-  const float d = m[1][1];
-  const float e = 0.5F * (m[1][2] + m[2][1]);
-  const float f = m[2][2];
-  const float u = d * f - e * e;
-  const float v = c * e - b * f;
-  const float w = b * e - c * d;
-  const float determinant = a * u + b * v + c * w;
-  if (!(determinant > 0.2F)) return false;
-  const float by = 1 / determinant;
-  inverse[0] = Four{u * by, v * by, w * by, 0};
-  inverse[1] = Four{v * by, (a * f - c * c) * by, (b * c - a * e) * by, 0};
-  inverse[2] = Four{w * by, (b * c - a * e) * by, (a * d - b * b) * by, 0};
-  return true;
-}
+/// Of the matrices of the corrections: that of a half space is 1/8.
+constexpr float least_whole = 0.2F;
+constexpr float least_beside = 0.02F;
 
 }  // namespace
 
@@ -77,6 +61,7 @@ void NeighbourFinder::find(const CellOrder& cells, const std::vector<Four>& plac
   const std::size_t n = place.size();
   for (std::vector<std::size_t>* v : {&rows_.begin, &rows_.images, &rows_.end}) v->resize(n);
   for (std::vector<Four>& column : sums_.correction) column.resize(n);
+  for (std::vector<Four>& column : sums_.beside) column.resize(n);
   sums_.crowding.resize(n);
   sums_.diagonal.resize(n);
   static tbb::enumerable_thread_specific<Candidates> candidates;
@@ -167,6 +152,9 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
       }
       rows_.images[i] = next;
       if (at[3] < kernel_.support) {
+        Four beside[3] = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
+        invert(moment, least_beside, beside);
+        for (int c = 0; c < 3; ++c) sums_.beside[c][i] = beside[c];
         const Four n = normal[i];
         for (std::size_t k = 0; k < hits; ++k) {
           const std::uint32_t h = near.hit[k];
@@ -178,7 +166,7 @@ bool NeighbourFinder::fill_row(const CellOrder& cells, int y, int z, const std::
       }
       rows_.end[i] = next;
       Four inverse[3] = {Four{1, 0, 0, 1}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
-      invert(moment, inverse);
+      invert(moment, least_whole, inverse);
       for (int c = 0; c < 3; ++c) sums_.correction[c][i] = inverse[c];
       crowding[3] = 0;
       sums_.crowding[i] = crowding;

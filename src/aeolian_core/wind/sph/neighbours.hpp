@@ -24,6 +24,8 @@ struct NeighbourSums {
   /// Columns of the inverse of sum V (r_j - r_i) grad W, which makes gradients exact for linear fields (Bonet
   /// & Lok 1999).
   std::vector<Four> correction[3];
+  /// The same without images, of particles near a wall.
+  std::vector<Four> beside[3];
   std::vector<Four> crowding;   ///< sum V grad W: towards where the particles are too many
   std::vector<float> diagonal;  ///< of the Laplacian
 };

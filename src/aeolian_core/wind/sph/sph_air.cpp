@@ -3,29 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aeolian_core/surface/require.hpp"
 #include "aeolian_core/wind/log_law.hpp"
-#include "aeolian_core/wind/sph/lattice.hpp"
 
 namespace aeolian::sph {
 namespace {
 
-constexpr Require require("box of air");
 constexpr float kappa = static_cast<float>(von_karman);
 constexpr float contact = 0.1F;     ///< no particle comes closer to a wall [spacings]
-constexpr float far_shift = 0.1F;   ///< that a particle may be shifted in a step [spacings]
 constexpr float fastest_wind = 20;  ///< of the surroundings' that is still a wind
-/// Where between the old velocity (0) and the new (1) the air is free of divergence: at the middle no energy
-/// is lost, a little later what the spacing does not resolve dies out.
-constexpr float implicitness = 0.6F;
-constexpr float still = 0.5F;  ///< speed below which steps grow no longer
-constexpr int settling_steps = 40;
+constexpr float still = 0.5F;       ///< speed below which steps grow no longer
 constexpr int first_iterations = 400;
-
-float wrapped(float at, float length) {
-  at -= length * std::floor(at / length);
-  return at < length ? at : 0;
-}
 
 /// Of an acceleration by what rubs along a wall, so that its integral over the distance is one.
 float skin(float distance) { return distance < 1 ? 2 * (1 - distance) : 0; }
@@ -35,43 +22,6 @@ float skin(float distance) { return distance < 1 ? 2 * (1 - distance) : 0; }
 float Upwind::speed(float height) const {
   if (friction <= 0) return 1;
   return height > roughness ? friction / kappa * std::log(height / roughness) : 0;
-}
-
-SphAir::SphAir(const AirGround& ground, const Upwind& upwind, const AirSettings& settings)
-    : ground_(ground),
-      upwind_(upwind),
-      settings_(settings),
-      torus_{static_cast<float>(ground.place().nx), static_cast<float>(ground.place().ny),
-             static_cast<float>(ground.place().nz)},
-      cells_(torus_, settings.support),
-      finder_(torus_, settings.support) {
-  require(settings.support >= 1.5F && settings.support <= 4, "support", static_cast<double>(settings.support),
-          "1.5 to 4 spacings");
-  require(settings.step > 0 && settings.step <= 0.25F, "step", static_cast<double>(settings.step),
-          "positive and at most 0.25");
-  require(torus_.height - ground.highest() > 2 * settings.support, "height of the lid over the ground",
-          static_cast<double>(torus_.height - ground.highest()), "more than two supports");
-  place_ = lattice(ground_);
-  motion_.resize(place_.size());
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    motion_[i] = given_wind(place_[i][2] - ground_.height(place_[i][0], place_[i][1]));
-  order();
-  if (ground_.highest() > 0) settle();
-  start();
-}
-
-void SphAir::start() {
-  // At rest the ground would push the wind aside at once: this push is no pressure of the wind's.
-  dt_ = 1;
-  see_walls();
-  finder_.find(cells_, place_, normal_);
-  differentiate();
-  press();
-  for (std::size_t i = 0; i < size(); ++i) {
-    motion_[i] -= implicitness * force_[i];
-    motion_[i][3] = 0;
-    fastest_ = std::max(fastest_, std::sqrt(dot3(motion_[i], motion_[i])));
-  }
 }
 
 Four SphAir::given_wind(float height) const {
@@ -89,25 +39,6 @@ float SphAir::ring(float x, float y) const {
   const float sx = share(x, torus_.length_x, p.ring_x);
   const float sy = share(y, torus_.length_y, p.ring_y);
   return 1 - (1 - sx) * (1 - sy);
-}
-
-void SphAir::settle() {
-  for (int n = 0; n < settling_steps; ++n) {
-    see_walls();
-    finder_.find(cells_, place_, normal_);
-    for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        Four shift = -0.4F * finder_.sums().crowding[i];
-        const float length = std::sqrt(dot3(shift, shift));
-        if (length > far_shift) shift *= far_shift / length;
-        Four p = place_[i] + shift;
-        place_[i] = Four{wrapped(p[0], torus_.length_x), wrapped(p[1], torus_.length_y), p[2], 0};
-      }
-    });
-    order();
-  }
-  for (std::size_t i = 0; i < size(); ++i)
-    motion_[i] = given_wind(place_[i][2] - ground_.height(place_[i][0], place_[i][1]));
 }
 
 void SphAir::order() {
@@ -237,12 +168,28 @@ void SphAir::press() {
                     {residual, time_ > 0 ? settings_.iterations : first_iterations}, pressure_);
   if (!(left <= 10 * residual)) ++guards_.unsolved;
   const NeighbourRows& rows = finder_.rows();
+  // A wall that bends holds the air that runs along it by a slope of pressure, so the pressure's image is
+  // that of its particle less this slope.
+  wall_drop_.resize(size());
+  for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      force_[i] = Four{};
+      wall_drop_[i] = 0;
+      const float own = pressure_[i];
+      for (std::size_t k = rows.begin[i]; k < rows.images[i]; ++k)
+        force_[i] += rows.gradient[k] * (pressure_[rows.who[k]] - own);
+      if (place_[i][3] >= settings_.support) continue;
+      Four beside{};
+      for (int axis = 0; axis < 3; ++axis) beside += finder_.sums().beside[axis][i] * force_[i][axis];
+      wall_drop_[i] = 2 * place_[i][3] * dot3(beside, normal_[i]);
+    }
+  });
   for_chunks(size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const float own = pressure_[i];
-      Four sum{};
-      for (std::size_t k = rows.begin[i]; k < rows.end[i]; ++k)
-        sum += rows.gradient[k] * (pressure_[rows.who[k]] - own);
+      Four sum = force_[i];
+      for (std::size_t k = rows.images[i]; k < rows.end[i]; ++k)
+        sum += rows.gradient[k] * (pressure_[rows.who[k]] - wall_drop_[rows.who[k]] - own);
       Four force{};
       for (int axis = 0; axis < 3; ++axis) force += finder_.sums().correction[axis][i] * sum[axis];
       force[3] = 0;
@@ -324,51 +271,6 @@ void SphAir::step() {
   press();
   push();
   time_ += static_cast<double>(dt_);
-}
-
-void SphAir::move(double dx, double dy) {
-  const BoxPlace& p = ground_.place();
-  ground_.move(p.x + dx * p.spacing, p.y + dy * p.spacing);
-  const double length_x = static_cast<double>(torus_.length_x);
-  const double length_y = static_cast<double>(torus_.length_y);
-  const auto shift_x = static_cast<float>(std::fmod(dx, length_x));
-  const auto shift_y = static_cast<float>(std::fmod(dy, length_y));
-  for (Four& at : place_) {
-    at[0] = wrapped(at[0] - shift_x, torus_.length_x);
-    at[1] = wrapped(at[1] - shift_y, torus_.length_y);
-  }
-  refill();
-}
-
-void SphAir::refill() {
-  const std::vector<Four> sites = lattice(ground_);
-  std::vector<Four> place, motion;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (place_[i][2] < ground_.height(place_[i][0], place_[i][1])) continue;
-    place.push_back(place_[i]);
-    motion.push_back(motion_[i]);
-  }
-  const std::size_t wanted = sites.size();
-  if (place.size() == wanted && place.size() == size()) return;
-  place_.swap(place);
-  motion_.swap(motion);
-  order();
-  if (size() < wanted) {
-    for (const std::size_t s : emptiest(cells_, place_, sites, wanted - size(), settings_.support)) {
-      place_.push_back(sites[s]);
-      motion_.push_back(given_wind(sites[s][2] - ground_.height(sites[s][0], sites[s][1])));
-      ++guards_.refilled;
-    }
-  } else if (size() > wanted) {
-    std::vector<std::size_t> out = fullest(cells_, place_, size() - wanted, settings_.support);
-    std::sort(out.begin(), out.end());
-    guards_.refilled += out.size();
-    while (!out.empty()) {
-      place_.erase(place_.begin() + static_cast<std::ptrdiff_t>(out.back()));
-      motion_.erase(motion_.begin() + static_cast<std::ptrdiff_t>(out.back()));
-      out.pop_back();
-    }
-  }
 }
 
 std::vector<float> SphAir::density() {

@@ -90,7 +90,11 @@ class SphAir {
   float ring(float x, float y) const;
 
  private:
-  void seed();
+  static constexpr float far_shift = 0.1F;  ///< that a particle may be shifted in a step [spacings]
+  /// Where between the old velocity (0) and the new (1) the air is free of divergence: at the middle no
+  /// energy is lost.
+  static constexpr float implicitness = 0.5F;
+
   void settle();
   void start();
   void order();
@@ -118,7 +122,7 @@ class SphAir {
   std::vector<Four> slope_[3];
   std::vector<Four> bend_;   ///< Laplacian of the velocity
   std::vector<Four> force_;  ///< gradient of the pressure
-  std::vector<float> pressure_, source_, greatest_;
+  std::vector<float> pressure_, source_, wall_drop_, greatest_;
 };
 
 }  // namespace aeolian::sph

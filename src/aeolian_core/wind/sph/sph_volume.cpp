@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "aeolian_core/surface/require.hpp"
+#include "aeolian_core/wind/sph/resampled_flows.hpp"
 #include "aeolian_core/wind/wall_law_response.hpp"
 
 namespace aeolian {
@@ -119,7 +120,7 @@ void SphVolume::blow(double direction, const SphSettings& settings) {
 AirVelocity SphVolume::resolved(double x, double y, double height) const {
   const auto px = static_cast<float>((x - place_.x) / spacing_);
   const auto py = static_cast<float>((y - place_.y) / spacing_);
-  const sph::Four u = mean_->at(px, py, ground_->height(px, py) + static_cast<float>(height / spacing_));
+  const sph::Four u = mean_->at(px, py, static_cast<float>(height / spacing_));
   return {scale_ * static_cast<double>(u[0]), scale_ * static_cast<double>(u[1]),
           scale_ * static_cast<double>(u[2])};
 }
@@ -135,13 +136,6 @@ AirVelocity SphVolume::velocity(double x, double y, double height) const {
 }
 
 void SphVolume::resample() {
-  const GridGeometry& g = relief_.geometry;
-  const int nx = std::max(1, static_cast<int>(g.length_x() / spacing_));
-  const int ny = std::max(1, static_cast<int>(g.length_y() / spacing_));
-  const int nz = static_cast<int>(std::lround(top_ / spacing_));
-  const double dx = g.length_x() / nx;
-  const double dy = g.length_y() / ny;
-  flows_ = FaceFlows(nx, ny, nz);
   const auto height = [&](double x, double y) {
     return spacing_ * static_cast<double>(ground_->height(static_cast<float>((x - place_.x) / spacing_),
                                                           static_cast<float>((y - place_.y) / spacing_)));
@@ -152,20 +146,8 @@ void SphVolume::resample() {
     const AirVelocity u = resolved(x, y, reference_height());
     return AirVelocity{part * u.east, part * u.north, part * u.up};
   };
-  for (int iy = 0; iy <= ny; ++iy)
-    for (int ix = 0; ix <= nx; ++ix)
-      for (int iz = 0; iz <= nz; ++iz) {
-        const double x = g.origin_x() + ix * dx;
-        const double y = g.origin_y() + iy * dy;
-        const double z = (iz + 0.5) * spacing_;
-        if (iz < nz && iy < ny) flows_.x(ix, iy, iz) = dy * spacing_ * wind(x, y + 0.5 * dy, z).east;
-        if (iz < nz && ix < nx) flows_.y(ix, iy, iz) = dx * spacing_ * wind(x + 0.5 * dx, y, z).north;
-        if (ix == nx || iy == ny || iz == 0) continue;  // No air leaves through the ground.
-        const double slope_x = (height(x + dx, y + 0.5 * dy) - height(x, y + 0.5 * dy)) / dx;
-        const double slope_y = (height(x + 0.5 * dx, y + dy) - height(x + 0.5 * dx, y)) / dy;
-        const AirVelocity u = wind(x + 0.5 * dx, y + 0.5 * dy, iz * spacing_);
-        flows_.z(ix, iy, iz) = dx * dy * (u.up - u.east * slope_x - u.north * slope_y);
-      }
+  flows_ = sph::resampled_flows(relief_.geometry, spacing_, static_cast<int>(std::lround(top_ / spacing_)),
+                                height, wind);
 }
 
 TerrainResponse sph_response(const HeightMap& surface, double direction, const ReliefSettings& settings,

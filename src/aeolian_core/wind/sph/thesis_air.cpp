@@ -32,6 +32,8 @@ struct ThesisKernels {
 ThesisAir::ThesisAir(const AirGround& ground, const ThesisSettings& settings)
     : ground_(ground),
       settings_(settings),
+      wind_{static_cast<float>(settings.wind * std::cos(settings.direction)),
+            static_cast<float>(settings.wind * std::sin(settings.direction)), 0, 0},
       diameter_(settings.box / settings.side),
       mass_(settings.density * std::pow(diameter_, 3) * M_PI / 6),
       cells_({static_cast<float>(settings.side + 2 * settings.reach),
@@ -40,7 +42,8 @@ ThesisAir::ThesisAir(const AirGround& ground, const ThesisSettings& settings)
              static_cast<float>(settings.reach)) {
   require(settings.side >= 4 && settings.side <= 64, "particles along a side", settings.side, "4 to 64");
   require(settings.reach >= 2 && settings.reach <= 4, "support over diameter", settings.reach, "2 to 4");
-  require(settings.step > 0 && settings.step <= 1, "step", settings.step, "positive and at most 1 [s]");
+  require(settings.step > 0 && settings.step * settings.sound <= settings.reach * diameter_, "step",
+          settings.step, "positive and at most what sound takes for a support [s]");
   const int n = settings.side + 2 * settings.reach;
   // Ghosts lie below the ground, heights count from their lowest.
   level_ = static_cast<float>(settings.reach);
@@ -61,7 +64,7 @@ ThesisAir::ThesisAir(const AirGround& ground, const ThesisSettings& settings)
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x)
       for (int z = 0; z < settings.reach; ++z) add(x, y, -static_cast<float>(z) - 0.5F);
-  motion_.assign(place_.size(), Four{static_cast<float>(settings.wind), 0, 0, 0});
+  motion_.assign(place_.size(), wind_);
   std::fill(motion_.begin() + static_cast<std::ptrdiff_t>(ghosts_from_), motion_.end(), Four{});
   if (!settings.sphere_mass) {
     find();
@@ -169,7 +172,8 @@ void ThesisAir::evolve() {
     const float factor = std::clamp(inside + radius, 0.0F, 1.0F);
     if (factor > 0) {
       v += dt * force_[i];
-      v[0] = std::max(v[0], wind);  // ApplyWind
+      // ApplyWind
+      if (wind > 0) v += std::max(0.0F, wind - dot3(v, wind_) / wind) / wind * wind_;
       v *= static_cast<float>(settings_.friction);
       const float speed = std::sqrt(dot3(v, v));
       if (speed > limit && limit > 0) {
@@ -178,7 +182,7 @@ void ThesisAir::evolve() {
       }
       if (settings_.gravity) v[2] -= dt * static_cast<float>(gravity);
     }
-    const Four way = move * (factor * v + (1 - factor) * Four{wind, 0, 0, 0});
+    const Four way = move * (factor * v + (1 - factor) * wind_);
     const Four to = p + way;
     const bool wraps = to[0] < 0 || to[0] >= length || to[1] < 0 || to[1] >= length;
     const float x = to[0] - length * std::floor(to[0] / length);
@@ -187,7 +191,7 @@ void ThesisAir::evolve() {
     float z = to[2];
     if (factor <= 0 || wraps) {
       z = ground + relative_[i];  // Follows the terrain at every height.
-      v = Four{wind, 0, 0, 0};
+      v = wind_;
     }
     if (z < ground + radius) {
       const float e = 0.5F;

@@ -11,7 +11,8 @@ struct ThesisSettings {
   int side = 16;             ///< particles along a side, s
   double box = 1000;         ///< length of the side [m]
   int reach = 2;             ///< kernel's support over the particle's diameter, r_d
-  double wind = 10;          ///< along x [m/s]
+  double wind = 10;          ///< [m/s]
+  double direction = 0;      ///< that it blows to, counter-clockwise from x [rad]
   bool near_kernels = true;  ///< a second copy of density and pressure, with the radius for a support
   bool sphere_mass = true;   ///< false: calibrated on the start lattice, which the thesis does not
   bool gravity = true;
@@ -38,7 +39,9 @@ class ThesisAir {
   std::size_t size() const { return place_.size(); }
   const std::vector<Four>& place() const { return place_; }    ///< in diameters
   const std::vector<Four>& motion() const { return motion_; }  ///< [m/s]
-  double diameter() const { return diameter_; }                ///< [m]
+  /// Height of a particle over the ground [diameters].
+  float height(std::size_t i) const { return relative_[i]; }
+  double diameter() const { return diameter_; }  ///< [m]
   /// Mean density of the simulated particles over rho_0; (4.4), with the near kernels not counted.
   double mean_density() const;
   /// The mean height of the simulated particles over the ground [m], twice of which is the height of the air.
@@ -56,6 +59,7 @@ class ThesisAir {
 
   AirGround ground_;
   ThesisSettings settings_;
+  Four wind_;  ///< of the surroundings [m/s]
   double diameter_;
   double mass_;
   double limited_share_ = 0;

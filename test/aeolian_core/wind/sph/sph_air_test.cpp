@@ -109,10 +109,56 @@ TEST(SphAir, HalfTheStepChangesLittle) {  // trap 12
       air.step();
       if (air.time() > 4) mean.add(air);
     }
-    crest[n] = static_cast<double>(mean.at(9, 9, 2)[0]);
+    crest[n] = static_cast<double>(mean.at(9, 9, 0.5F)[0]);
   }
   EXPECT_NEAR(crest[0], crest[1], 0.02 * crest[1]);
   EXPECT_GT(crest[1], 1.1);
+}
+
+TEST(SphAir,
+     RunsOverAHalfCylinderWithoutFallingBehind) {  // F7: what holds it on the bend is not felt as a brake
+  constexpr float a = 4;
+  AirBox box(ridge(1120, 0.05, [](double x) { return std::abs(x) < 4 ? std::sqrt(16 - x * x) : 0; }), 56, 9,
+             20, 5, 0);
+  smooth(box.relief.height, 1120, 1, 0.375 / 0.05, false);
+  box.place.floor = *std::min_element(box.relief.height.begin(), box.relief.height.end());
+  SphAir air = box.air();
+  double speed = 0;
+  double exact = 0;
+  double lee = 0;
+  double lee_count = 0;
+  while (air.time() < 30) {
+    air.step();
+    if (air.time() < 20) continue;
+    for (std::size_t i = 0; i < air.size(); ++i) {
+      const float x = air.place()[i][0] - 28;
+      const float r = std::hypot(x, air.place()[i][2]);
+      if (std::abs(x) < 1 && r < a + 1) {
+        speed += static_cast<double>(air.motion()[i][0]);
+        exact += static_cast<double>(1 + a * a / (r * r));
+      }
+      if (x > 1.1F * a && x < 2.5F * a && air.place()[i][2] < 0.6F * a) {
+        lee += static_cast<double>(air.motion()[i][0]);
+        ++lee_count;
+      }
+    }
+  }
+  EXPECT_NEAR(speed, exact, 0.1 * exact);
+  EXPECT_GT(lee / lee_count, 0.25);  // No air stands still behind it.
+  EXPECT_EQ(fired(air), 0U);
+}
+
+TEST(MeanAir, ReadsAShearAsItIsAtAWall) {
+  const AirBox box = level_box(12, 12);
+  SphAir air = box.air();
+  air.density();
+  for (std::size_t i = 0; i < air.size(); ++i) air.motion()[i] = Four{0.1F * air.place()[i][2], 0, 0.3F, 0};
+  MeanAir mean(air);
+  mean.add(air);
+  for (const float height : {0.0F, 0.3F, 1.0F, 6.5F}) {
+    EXPECT_NEAR(mean.at(6, 6, height)[0], 0.1F * height, 1e-4);
+    EXPECT_NEAR(mean.at(6, 6, height)[2], 0.3F, 1e-4);
+  }
 }
 
 TEST(SphAir, StaysSoundWhereNobodyWouldBlow) {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "aeolian_core/surface/error.hpp"
-#include "aeolian_core/wind/sph/thesis_air.hpp"
+#include "aeolian_core/wind/sph/thesis_volume.hpp"
 #include "aeolian_core/wind/terrain_wind.hpp"
 
 namespace aeolian {
@@ -92,6 +92,60 @@ TEST(ThesisAir, HasTheDefectsThatTheSpecTells) {  // trap 6; f+(900) of section 
     EXPECT_NEAR(air.mean_density(), near ? 0.525 + 6.56 : 0.525, 0.05 * (near ? 7.1 : 0.525));
   }
   EXPECT_NEAR(sph::ThesisAir::lift_divisor(900, 3, true) / (2.0472 / 3 + 0.3032), 26.7, 0.1);
+}
+
+ThesisVolumeSettings thesis_of(double speed) {
+  ThesisVolumeSettings settings;
+  settings.air.side = 8;
+  settings.air.wind = speed;
+  settings.lift_adjusted = false;
+  return settings;
+}
+
+TEST(ThesisVolume, BlowsThroughAndItsLiftDependsOnTheSpeed) {  // traps 2 and 4
+  const WindRelief relief = wind_relief(
+      world(20, 20, 50, [](double x, double y) { return gaussian(std::hypot(x, y), 80, 200); }), 0);
+  double lift[2];
+  for (int n = 0; n < 2; ++n) {
+    const ThesisVolume v(relief, 0.5 * M_PI, UpwindProfile::uniform(), thesis_of(n == 0 ? 3 : 20));
+    double north = 0;
+    double east = 0;
+    int count = 0;
+    lift[n] = 0;
+    for (double y = -400; y < 500; y += 100)
+      for (double z = 60; z < 400; z += 60) {
+        const AirVelocity u = v.velocity(50, y, z);
+        if (!std::isfinite(u.north)) continue;
+        ++count;
+        north += u.north;
+        east += u.east;
+        lift[n] += u.up;
+      }
+    ASSERT_GT(count, 10);  // Its air falls: most cells above are empty.
+    // ApplyWind lets none be slower than the wind, but the limiter then shrinks what falls.
+    EXPECT_GT(north / count, 0.5);
+    EXPECT_LT(north / count, 2);
+    EXPECT_NEAR(east / count, 0, 0.3);
+    lift[n] /= count;
+    EXPECT_TRUE(std::isnan(v.velocity(50, 0, 2 * v.top()).up));
+  }
+  // In units of the wind a neutral air's would be the same.
+  EXPECT_GT(std::abs(lift[0] - lift[1]), 0.05 * std::abs(lift[1]));
+}
+
+TEST(ThesisVolume, IsAModelOfTheWindThatMustBeAskedFor) {
+  TerrainWindSettings settings;
+  settings.backend = backend_of("thesis_compatible");
+  ASSERT_EQ(settings.backend, WindBackend::thesis_compatible);
+  settings.thesis = thesis_of(10);
+  TerrainWind model(settings);
+  const HeightMap map =
+      world(20, 20, 50, [](double x, double y) { return gaussian(std::hypot(x, y), 40, 200); });
+  WindInput input;
+  input.speed = 10;
+  EXPECT_EQ(model.solve(input, &map).model, "thesis compatible");
+  settings.thesis.air.wind = 0;
+  EXPECT_THROW(TerrainWind(settings).solve(input, &map), Error);
 }
 
 }  // namespace
