@@ -55,6 +55,7 @@ struct LayDown {
   const LateralSpread& spread;
   double depth;
   const FrameField* open;
+  const SlopeBias* bias;
   const ActivePatches& active;
   FrameField& bed;
   FrameField& activity;
@@ -76,6 +77,7 @@ LaidDown LayDown::run(int begin, int end) const {
   const int count = live.end - live.begin;
   std::vector<double> eroded(static_cast<std::size_t>(count), 0.0);
   std::vector<double> strongest(static_cast<std::size_t>(count), 0.0);
+  double stiffest = 0;
   const auto finish = [&](int i, const double* deposition) {
     if (i < begin || i >= end) return;
     const double upper = frame.place(i).upper;
@@ -83,6 +85,8 @@ LaidDown LayDown::run(int begin, int end) const {
            bed.at(i) + live.begin, activity.at(i) + live.begin, eroded.data(), strongest.data());
     bed.fill_pads(i, periodic);
     activity.fill_pads(i, periodic);
+    // One station behind, while its heights are in a cache; the block's first and last wait for other blocks.
+    if (bias && i - 1 > begin) stiffest = std::max(stiffest, bias->stiffen(i - 1, bed, active, activity));
     if (periodic) return;
     // The share of the outermost lines that falls beside the grid has crossed its border.
     result.inflow += (1 - upper) * sweep.erosion().at(i)[0] + upper * sweep.erosion().at(i)[rows];
@@ -96,7 +100,7 @@ LaidDown LayDown::run(int begin, int end) const {
     stream.push(finish);
   }
   for (const double e : eroded) result.eroded += e;
-  result.strongest = *std::max_element(strongest.begin(), strongest.end());
+  result.strongest = bias ? stiffest : *std::max_element(strongest.begin(), strongest.end());
   return result;
 }
 
@@ -120,9 +124,10 @@ void widen(const WindFrame& frame, const LateralSpread& spread, ActivePatches& a
 }  // namespace
 
 LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
-                  const FrameField* open, ActivePatches& active, FrameField& bed, FrameField& activity) {
+                  const FrameField* open, const SlopeBias* bias, ActivePatches& active, FrameField& bed,
+                  FrameField& activity) {
   if (open) widen(frame, spread, active);
-  const LayDown work{frame, sweep, spread, depth, open, active, bed, activity};
+  const LayDown work{frame, sweep, spread, depth, open, bias, active, bed, activity};
   const int blocks = (frame.stations() + stations_at_once - 1) / stations_at_once;
   std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {
@@ -136,6 +141,15 @@ LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const Latera
     result.inflow += part.inflow;
     result.outflow += part.outflow;
     result.strongest = std::max(result.strongest, part.strongest);
+  }
+  if (!bias) return result;
+  const auto stiffen_here = [&](int i) {
+    result.strongest = std::max(result.strongest, bias->stiffen(i, bed, active, activity));
+  };
+  for (int begin = 0; begin < frame.stations(); begin += stations_at_once) {
+    const int last = std::min(begin + stations_at_once, frame.stations()) - 1;
+    stiffen_here(begin);
+    if (last > begin) stiffen_here(last);
   }
   return result;
 }
