@@ -1,5 +1,6 @@
 /// Error of the ripple model against run time: over the cells and the wind, against linear theory; over the
-/// step, against a sixteenth of the longest. docs/ripple_model.md has the results.
+/// step and over the bound of its error, against a sixteenth of the longest. docs/ripple_model.md has the
+/// results.
 
 #include <cmath>
 #include <complex>
@@ -102,6 +103,54 @@ void step(benchmark::State& state) {
   state.counters["of_change_%"] = 100 * std::sqrt(error / change);
 }
 BENCHMARK(step)->Arg(2)->Arg(4)->Arg(8)->Arg(12)->Arg(16)->Unit(benchmark::kMillisecond);
+
+/// A minute of ripples that have grown from flat sand by the noise of single grains, on 500 x 256 mm, without
+/// that noise; arguments: their age in minutes, the longest step in sixteenths, the bound of the error in
+/// hundredths of a mm per minute.
+void error_bound(benchmark::State& state) {
+  struct Bed {
+    std::vector<double> start, truth;
+    double rms;
+  };
+  static std::map<std::int64_t, Bed> beds;
+  const GridGeometry g(0, 0, 0.002, 250, 128);
+  Grain grain;
+  grain.diameter = 0.0004;
+  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  RippleParameters p;
+  p.border = Border::periodic;
+  const auto rms = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double square = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+    return 1e3 * std::sqrt(square / static_cast<double>(a.size()));
+  };
+  const auto found = beds.find(state.range(0));
+  if (found == beds.end()) {
+    Bed& bed = beds[state.range(0)];
+    RippleParameters noisy = p;
+    noisy.stochastic_share = 1;
+    bed.start.assign(g.size(), 0.0);
+    RippleModel(noisy).advance(g, bed.start, forcing, 60 * static_cast<double>(state.range(0)));
+    bed.rms = rms(bed.start, std::vector<double>(g.size(), 0.0));
+    bed.truth = bed.start;
+    p.step = 1.0 / 16;
+    RippleModel(p).advance(g, bed.truth, forcing, 60);
+  }
+  const Bed& bed = beds.at(state.range(0));
+  p.step = static_cast<double>(state.range(1)) / 16;
+  p.error_bound = static_cast<double>(state.range(2)) * 1e-5 / 60;
+  std::vector<double> h;
+  for (auto _ : state) {
+    h = bed.start;
+    RippleModel(p).advance(g, h, forcing, 60);
+  }
+  state.counters["bed_rms_mm"] = bed.rms;
+  state.counters["error_mm"] = rms(h, bed.truth);
+}
+BENCHMARK(error_bound)
+    ->ArgsProduct({{5, 10, 15, 30, 90}, {16}, {0, 10, 3}})
+    ->ArgsProduct({{5, 10, 15, 30, 90}, {4}, {0}})
+    ->Unit(benchmark::kMillisecond);
 
 /// A plot of 1 m x 0.5 m with the noise of single grains; the argument is the share of the cells that draw
 /// theirs in a step, in percent.

@@ -21,17 +21,35 @@ AEOLIAN_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __
 
 AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, const double* __restrict erosion,
                            const double* __restrict deposition, double* __restrict bed,
-                           double* __restrict activity, double* __restrict eroded,
-                           double* __restrict strongest) {
+                           double* __restrict activity) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double lost = erosion[i + 1] + upper * (erosion[i] - erosion[i + 1]);
     const double gained = deposition[i];
     bed[i] += depth * (gained - lost);
-    const double active = gained > 0 ? gained : 0;
-    activity[i] = active;
-    eroded[i] += lost;
-    strongest[i] = strongest[i] > active ? strongest[i] : active;
+    activity[i] = gained > 0 ? gained : 0;
   }
+}
+
+constexpr int lanes = 8;
+
+AEOLIAN_KERNEL double sum(std::ptrdiff_t count, const double* __restrict values) {
+  double sums[lanes] = {};
+  const std::ptrdiff_t whole = count / lanes * lanes;
+  for (std::ptrdiff_t i = 0; i < whole; i += lanes)
+    for (int k = 0; k < lanes; ++k) sums[k] += values[i + k];
+  for (std::ptrdiff_t i = whole; i < count; ++i) sums[i - whole] += values[i];
+  double total = 0;
+  for (const double part : sums) total += part;
+  return total;
+}
+
+AEOLIAN_KERNEL double largest(std::ptrdiff_t count, const double* __restrict values) {
+  double most[lanes] = {};
+  const std::ptrdiff_t whole = count / lanes * lanes;
+  for (std::ptrdiff_t i = 0; i < whole; i += lanes)
+    for (int k = 0; k < lanes; ++k) most[k] = values[i + k] > most[k] ? values[i + k] : most[k];
+  for (std::ptrdiff_t i = whole; i < count; ++i) most[0] = std::max(most[0], values[i]);
+  return *std::max_element(most, most + lanes);
 }
 
 struct Rows {
@@ -55,6 +73,7 @@ struct LayDown {
   const LateralSpread& spread;
   double depth;
   const FrameField* open;
+  const SlopeBias* bias;
   const ActivePatches& active;
   FrameField& bed;
   FrameField& activity;
@@ -74,15 +93,19 @@ LaidDown LayDown::run(int begin, int end) const {
   const int first_row = std::max(0, live.begin - FrameField::pad);
   const int last_row = std::min(rows, live.end + FrameField::pad);
   const int count = live.end - live.begin;
-  std::vector<double> eroded(static_cast<std::size_t>(count), 0.0);
-  std::vector<double> strongest(static_cast<std::size_t>(count), 0.0);
   const auto finish = [&](int i, const double* deposition) {
     if (i < begin || i >= end) return;
     const double upper = frame.place(i).upper;
-    update(count, depth, upper, sweep.erosion().at(i) + live.begin, deposition + live.begin,
-           bed.at(i) + live.begin, activity.at(i) + live.begin, eroded.data(), strongest.data());
+    const double* const lost = sweep.erosion().at(i) + live.begin;
+    double* const active_here = activity.at(i) + live.begin;
+    update(count, depth, upper, lost, deposition + live.begin, bed.at(i) + live.begin, active_here);
+    result.eroded += sum(count, lost + 1) + upper * (lost[0] - lost[count]);
+    if (!bias) result.strongest = std::max(result.strongest, largest(count, active_here));
     bed.fill_pads(i, periodic);
     activity.fill_pads(i, periodic);
+    // One station behind, while its heights are in a cache; the block's first and last wait for other blocks.
+    if (bias && i - 1 > begin)
+      result.strongest = std::max(result.strongest, bias->stiffen(i - 1, bed, active, activity));
     if (periodic) return;
     // The share of the outermost lines that falls beside the grid has crossed its border.
     result.inflow += (1 - upper) * sweep.erosion().at(i)[0] + upper * sweep.erosion().at(i)[rows];
@@ -95,8 +118,6 @@ LaidDown LayDown::run(int begin, int end) const {
             stream.next() + first_row);
     stream.push(finish);
   }
-  for (const double e : eroded) result.eroded += e;
-  result.strongest = *std::max_element(strongest.begin(), strongest.end());
   return result;
 }
 
@@ -120,9 +141,10 @@ void widen(const WindFrame& frame, const LateralSpread& spread, ActivePatches& a
 }  // namespace
 
 LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const LateralSpread& spread, double depth,
-                  const FrameField* open, ActivePatches& active, FrameField& bed, FrameField& activity) {
+                  const FrameField* open, const SlopeBias* bias, ActivePatches& active, FrameField& bed,
+                  FrameField& activity) {
   if (open) widen(frame, spread, active);
-  const LayDown work{frame, sweep, spread, depth, open, active, bed, activity};
+  const LayDown work{frame, sweep, spread, depth, open, bias, active, bed, activity};
   const int blocks = (frame.stations() + stations_at_once - 1) / stations_at_once;
   std::vector<LaidDown> parts(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {
@@ -136,6 +158,15 @@ LaidDown lay_down(const WindFrame& frame, const ImpactSweep& sweep, const Latera
     result.inflow += part.inflow;
     result.outflow += part.outflow;
     result.strongest = std::max(result.strongest, part.strongest);
+  }
+  if (!bias) return result;
+  const auto stiffen_here = [&](int i) {
+    result.strongest = std::max(result.strongest, bias->stiffen(i, bed, active, activity));
+  };
+  for (int begin = 0; begin < frame.stations(); begin += stations_at_once) {
+    const int last = std::min(begin + stations_at_once, frame.stations()) - 1;
+    stiffen_here(begin);
+    if (last > begin) stiffen_here(last);
   }
   return result;
 }

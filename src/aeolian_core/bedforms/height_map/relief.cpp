@@ -63,11 +63,21 @@ void smooth(std::vector<double>& values, int n, std::size_t along, int lines, st
     const int count = std::min(lanes, lines - first);
     std::vector<double> here(static_cast<std::size_t>(n * lanes), 0.0);
     std::vector<double> next(here.size());
+    // By squares, each along what lies side by side: a cache holds no more of what lies far apart.
     const auto for_values = [&](auto&& visit) {
-      for (int i = 0; i < n; ++i)
-        for (int k = 0; k < count; ++k)
-          visit(values[static_cast<std::size_t>(i) * along + static_cast<std::size_t>(first + k) * across],
-                here[static_cast<std::size_t>(i * lanes + k)]);
+      const auto visit_one = [&](int i, int k) {
+        visit(values[static_cast<std::size_t>(i) * along + static_cast<std::size_t>(first + k) * across],
+              here[static_cast<std::size_t>(i * lanes + k)]);
+      };
+      for (int from = 0; from < n; from += lanes) {
+        const int to = std::min(from + lanes, n);
+        if (along < across)
+          for (int k = 0; k < count; ++k)
+            for (int i = from; i < to; ++i) visit_one(i, k);
+        else
+          for (int i = from; i < to; ++i)
+            for (int k = 0; k < count; ++k) visit_one(i, k);
+      }
     };
     for_values([](const double& value, double& mine) { mine = value; });
     for (int pass = 0; pass < 3; ++pass) {

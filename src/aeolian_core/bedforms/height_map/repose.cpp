@@ -12,6 +12,13 @@ AEOLIAN_KERNEL bool is_any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, dou
   const double along = straight * (1 + repose_slack);
   const double oblique = along * 1.4142135623730951;
   std::int64_t any = 0;
+  // Most slopes are so gentle that no diagonal, the sum of two of them, can be too steep.
+  const double gentle = 0.7 * along;
+  for (std::ptrdiff_t i = 0; i < ahead; ++i)
+    any |= (size(behind[i] - h[i]) > gentle) | (size(h[i + 1] - h[i]) > gentle);
+  any |= size(behind[ahead] - h[ahead]) > gentle;
+  if (any == 0) return false;
+  any = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) any |= size(behind[i] - h[i]) > along;
   for (std::ptrdiff_t i = 0; i < ahead; ++i)
     any |= (size(h[i + 1] - h[i]) > along) | (size(behind[i + 1] - h[i]) > oblique) |

@@ -130,20 +130,18 @@ void RippleMotion::move(double dt, double time) {
   } else {
     impacts_.run(bed, dune_, depth);
   }
-  const LaidDown laid = lay_down(frame_, impacts_, spread_, depth, hard() ? &ground_.open : nullptr,
-                                 state_.active, bed, activity_);
+  const SlopeBias bias(frame_, cell_, std::tan(parameters_.doubling_slope), dune_);
+  const LaidDown laid =
+      lay_down(frame_, impacts_, spread_, depth, hard() ? &ground_.open : nullptr,
+               parameters_.doubling_slope < M_PI / 2 ? &bias : nullptr, state_.active, bed, activity_);
   state_.volume.moved += laid.eroded * per_depth;
   state_.volume.inflow += laid.inflow * per_depth;
   state_.volume.outflow += laid.outflow * per_depth;
-  const double strongest =
-      parameters_.doubling_slope < M_PI / 2
-          ? stiffen(frame_, cell_, std::tan(parameters_.doubling_slope), dune_, bed, state_.active, activity_)
-          : laid.strongest;
   if (hard()) {
-    slopes_.run(activity_, strongest, dt, ground_, state_.active, bed);
+    slopes_.run(activity_, laid.strongest, dt, ground_, state_.active, bed);
     state_.volume.moved += avalanches_.run(bed, ground_, state_.active);
   } else {
-    slopes_.run(activity_, strongest, dt, bed);
+    slopes_.run(activity_, laid.strongest, dt, bed);
     state_.volume.moved += avalanches_.run(bed);
   }
   state_.unsaturated += dt;

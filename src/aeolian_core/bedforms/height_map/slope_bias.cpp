@@ -1,6 +1,7 @@
 #include "aeolian_core/bedforms/height_map/slope_bias.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -40,26 +41,36 @@ AEOLIAN_KERNEL double stiffen_rows(std::ptrdiff_t count, double per_height, Rows
 
 }  // namespace
 
+SlopeBias::SlopeBias(const WindFrame& frame, double cell, double tan_doubling_slope, const FrameField& dune)
+    : frame_(frame), per_height_(std::pow(1 / (2 * cell * tan_doubling_slope), 2)), dune_(dune) {}
+
+double SlopeBias::stiffen(int station, const FrameField& bed, const ActivePatches& active,
+                          FrameField& activity) const {
+  const int n = frame_.stations();
+  const int before = station > 0 ? station - 1 : frame_.periodic() ? n - 1 : 0;
+  const int behind = station + 1 < n ? station + 1 : frame_.periodic() ? 0 : station;
+  double strongest = 0;
+  active.for_runs(station, [&](int begin, int end) {
+    const auto rows_of = [&](const FrameField& field) {
+      return Rows{field.at(station) + begin, field.at(before) + begin, field.at(behind) + begin};
+    };
+    strongest = std::max(strongest, stiffen_rows(end - begin, per_height_, rows_of(bed), rows_of(dune_),
+                                                 activity.at(station) + begin));
+  });
+  activity.fill_pads(station, frame_.periodic());
+  return strongest;
+}
+
 double stiffen(const WindFrame& frame, double cell, double tan_doubling_slope, const FrameField& dune,
                const FrameField& bed, const ActivePatches& active, FrameField& activity) {
+  const SlopeBias bias(frame, cell, tan_doubling_slope, dune);
   const int n = frame.stations();
-  const double per_cell = 1 / (2 * cell * tan_doubling_slope);
   const int blocks = (n + stations_at_once - 1) / stations_at_once;
   std::vector<double> strongest(static_cast<std::size_t>(blocks), 0.0);
   tbb::parallel_for(0, blocks, [&](int block) {
     double& here = strongest[static_cast<std::size_t>(block)];
-    for (int i = block * stations_at_once; i < std::min((block + 1) * stations_at_once, n); ++i) {
-      const int before = i > 0 ? i - 1 : frame.periodic() ? n - 1 : 0;
-      const int behind = i + 1 < n ? i + 1 : frame.periodic() ? 0 : i;
-      active.for_runs(i, [&](int begin, int end) {
-        const auto rows_of = [&](const FrameField& field) {
-          return Rows{field.at(i) + begin, field.at(before) + begin, field.at(behind) + begin};
-        };
-        here = std::max(here, stiffen_rows(end - begin, per_cell * per_cell, rows_of(bed), rows_of(dune),
-                                           activity.at(i) + begin));
-      });
-      activity.fill_pads(i, frame.periodic());
-    }
+    for (int i = block * stations_at_once; i < std::min((block + 1) * stations_at_once, n); ++i)
+      here = std::max(here, bias.stiffen(i, bed, active, activity));
   });
   return *std::max_element(strongest.begin(), strongest.end());
 }

@@ -98,6 +98,12 @@ AEOLIAN_KERNEL void face_activities(std::ptrdiff_t count, const double* __restri
   }
 }
 
+int power_of_two(int least) {
+  int power = 1;
+  while (power < least) power *= 2;
+  return power;
+}
+
 }  // namespace
 
 SlopeStages::SlopeStages(const WindFrame& frame, int count, double gain, const FrameField& activity,
@@ -109,8 +115,9 @@ SlopeStages::SlopeStages(const WindFrame& frame, int count, double gain, const F
       height_(height),
       result_(result),
       between_(4 * (count - 1), frame.rows()),
-      first_(count + 2, frame.rows()) {
-  if (deep) faces_ = FrameField(2 * (count + 2), frame.rows());
+      kept_(power_of_two(count + 2)),
+      first_(kept_, frame.rows()) {
+  if (deep) faces_ = FrameField(2 * kept_, frame.rows());
   const double n = count;
   const double w = 4 / (n * n + n - 2);
   const auto b = [](double j) { return j < 2 ? 1.0 / 3 : (j * j + j - 2) / (2 * j * (j + 1)); };
@@ -140,6 +147,7 @@ void SlopeStages::run(int begin, int end, int row_begin, int row_end) {
 /// The station of the field that one is or goes on as.
 int SlopeStages::wrapped(int station) const {
   const int n = frame_.stations();
+  if (station >= 0 && station < n) return station;
   return frame_.periodic() ? (station % n + n) % n : std::clamp(station, 0, n - 1);
 }
 
@@ -150,10 +158,7 @@ const double* SlopeStages::row(int j, int station) {
 }
 
 /// Where what is kept of the last stations lies.
-int SlopeStages::turn(int station) const {
-  const int kept = count_ + 2;
-  return (station % kept + kept) % kept;
-}
+int SlopeStages::turn(int station) const { return station & (kept_ - 1); }
 
 /// From the station to the next, and from each row to the next. Walls pass nothing.
 void SlopeStages::find_faces(int station) {

@@ -39,6 +39,7 @@ class SlopeStages {
   const FrameField& height_;
   FrameField& result_;
   FrameField between_;  ///< four stations of each stage in turn
+  int kept_;            ///< last stations of which more is kept: a power of two
   FrameField first_;    ///< what flows at first, at the last stations
   FrameField faces_;    ///< activities of faces along and across the wind, at the last stations
   double begin_gain_ = 0;

@@ -350,6 +350,12 @@ class Bundle {
       visit(line - begin_);
   }
 
+  /// Whether no line of an open grid begins or ends at a station.
+  bool is_amid(int station) const {
+    return station > 0 && station < frame_.stations() - 1 &&
+           frame_.place(station - 1).offset == frame_.place(station + 1).offset;
+  }
+
   /// Books the flux at the ends of lines, by the weight of each stage.
   void account(int s, int station) {
     const HopStage& stage = stage_[at(s)];
@@ -365,7 +371,7 @@ class Bundle {
       }
       return;
     }
-    if (station < 0 || station > last) return;
+    if (station < 0 || station > last || is_amid(station)) return;
     const auto comes = [&](int line) { result_.inflow += stage_weight[at(s)] * stage.flux_in(line); };
     const auto goes = [&](int line) { result_.outflow += stage_weight[at(s)] * stage.flux_out(line); };
     if (station == 0)
