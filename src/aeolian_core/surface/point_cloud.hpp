@@ -16,6 +16,13 @@ struct PointCloud {
   std::vector<float> z;
 
   std::size_t size() const { return x.size(); }
+  /// No points about zero; the memory stays.
+  void clear() {
+    origin_x = origin_y = origin_z = 0;
+    x.clear();
+    y.clear();
+    z.clear();
+  }
   void reserve(std::size_t count) {
     x.reserve(count);
     y.reserve(count);

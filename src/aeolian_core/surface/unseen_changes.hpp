@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/tile_mask.hpp"
 
@@ -25,9 +29,17 @@ class UnseenChanges {
   TileMask take(const HeightMap& map, const TileMask& touched);
 
  private:
+  struct Difference;
+  /// The cells of a tile side by side, so that those of few tiles are few pieces of memory; NaN beyond the
+  /// map.
+  struct Tile {
+    std::array<float, TileMask::tile_cells * TileMask::tile_cells> elevation, variance;
+  };
+
+  static void compare(const Tile& tile, const Tile& seen, Difference& difference);
+
   GridGeometry geometry_;
-  HeightMap::Layer elevation_;
-  HeightMap::Layer variance_;
+  std::vector<Tile> seen_;
 };
 
 }  // namespace aeolian

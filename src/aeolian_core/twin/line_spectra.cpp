@@ -24,9 +24,8 @@ cv::Mat transformed(const std::vector<float>& values, int count, int length, int
     float* to = rows[line];
     for (int i = 0; i < length; ++i) to[i] = squared ? from[i] * from[i] : from[i];
   }
-  cv::Mat result;
-  cv::dft(rows, result, cv::DFT_ROWS);
-  return result;
+  cv::dft(rows, rows, cv::DFT_ROWS);
+  return rows;
 }
 
 /// The sums over pairs of samples from which a correlation coefficient follows, each by lag.

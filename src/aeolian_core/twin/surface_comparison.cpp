@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <tbb/parallel_for_each.h>
 #include <tbb/parallel_invoke.h>
 
 #include "aeolian_core/surface/error.hpp"
@@ -213,21 +214,27 @@ ForecastSkill forecast_skill(const GridGeometry& grid, const Surface& a, const S
 /// Adds lod95 to a map of differences and says what it rests on.
 std::string add_levels(HeightMap& map, const HeightMap& a, const HeightMap& b,
                        const ComparisonSettings& settings) {
-  const auto variance = [&](const HeightMap& of, const std::optional<double>& sigma, std::string& source) {
-    if (of.has(layer::variance)) {
-      source = "its variances";
-      return of.layer(layer::variance);
+  struct Variance {
+    HeightMap::Layer own;
+    const HeightMap::Layer* layer;
+    std::string source;
+
+    Variance(const HeightMap& of, const std::optional<double>& sigma, std::size_t cells)
+        : layer(of.has(layer::variance) ? &of.layer(layer::variance) : &own),
+          source(layer != &own ? "its variances"
+                 : sigma       ? "a given standard deviation"
+                               : "none, taken as exact") {
+      if (layer == &own) own.assign(cells, static_cast<float>(std::pow(sigma.value_or(0), 2)));
     }
-    source = sigma ? "a given standard deviation" : "none, taken as exact";
-    return HeightMap::Layer(map.geometry().size(), static_cast<float>(std::pow(sigma.value_or(0), 2)));
+    Variance(const Variance&) = delete;
+    Variance& operator=(const Variance&) = delete;
   };
   const bool known = a.has(layer::variance) || settings.sigma_a || b.has(layer::variance) || settings.sigma_b;
   if (known) {
-    std::string of_a;
-    std::string of_b;
-    const HeightMap::Layer variance_a = variance(a, settings.sigma_a, of_a);
-    map.add(layer::lod95, level_of_detection(variance_a, variance(b, settings.sigma_b, of_b)));
-    return "errors of the first surface: " + of_a + "; of the second: " + of_b;
+    const Variance of_a(a, settings.sigma_a, map.geometry().size());
+    const Variance of_b(b, settings.sigma_b, map.geometry().size());
+    map.add(layer::lod95, level_of_detection(*of_a.layer, *of_b.layer));
+    return "errors of the first surface: " + of_a.source + "; of the second: " + of_b.source;
   }
   HeightMap::Layer errors = map.layer(layer::difference);
   if (settings.stable != nullptr)
@@ -257,6 +264,20 @@ void find_correlation(const ComparisonSettings& settings, SurfaceComparison& res
   if (std::isfinite(result.correlation_area)) return;
   result.correlation_area = 1;
   result.correlation = "too few quiet cells: errors of cells taken as independent";
+}
+
+/// What follows from the differences of the cells alone.
+void compare_cells(const GridGeometry& grid, const HeightMap::Layer& first, const HeightMap::Layer& second,
+                   const HeightMap& a, const HeightMap& b, const ComparisonSettings& settings,
+                   SurfaceComparison& result) {
+  result.map = HeightMap(grid);
+  result.map.add(layer::difference, difference(first, second));
+  result.difference = difference_figures(grid, result.map.layer(layer::difference));
+  result.detection = add_levels(result.map, a, b, settings);
+  find_correlation(settings, result);
+  result.volume = volume_change(result.map, result.correlation_area, settings.common_sigma);
+  result.significant_share =
+      static_cast<double>(result.volume.significant_cells) / static_cast<double>(result.volume.known_cells);
 }
 
 }  // namespace
@@ -293,23 +314,15 @@ SurfaceComparison compare_surfaces(const HeightMap& a, const HeightMap& b, const
                 " are needed");
 
   SurfaceComparison result;
-  result.map = HeightMap(grid);
-  result.map.add(layer::difference, difference(first.elevation, second.elevation));
-  result.difference = difference_figures(grid, result.map.layer(layer::difference));
-  result.detection = add_levels(result.map, a, b, settings);
-  find_correlation(settings, result);
-  result.volume = volume_change(result.map, result.correlation_area, settings.common_sigma);
-  result.significant_share =
-      static_cast<double>(result.volume.significant_cells) / static_cast<double>(result.volume.known_cells);
-
   std::vector<Surface*> surfaces{&first, &second};
   if (start != nullptr) surfaces.push_back(&origin);
-  fit_planes(grid, surfaces);
-  tbb::parallel_invoke([&] { measure(grid, settings.direction, first); },
-                       [&] { measure(grid, settings.direction, second); },
-                       [&] {
-                         if (start != nullptr) measure(grid, settings.direction, origin);
-                       });
+  tbb::parallel_invoke(
+      [&] { compare_cells(grid, first.elevation, second.elevation, a, b, settings, result); },
+      [&] {
+        fit_planes(grid, surfaces);
+        tbb::parallel_for_each(surfaces,
+                               [&](Surface* surface) { measure(grid, settings.direction, *surface); });
+      });
   const double cell = grid.cell();
   const double wavelength = common_wavelength(first, second, cell);
   const int length = second.lines->length;
@@ -324,10 +337,12 @@ SurfaceComparison compare_surfaces(const HeightMap& a, const HeightMap& b, const
       [&] { first.figures.scales = line_scales(*first.lines, cell, lags, alike); },
       [&] { second.figures.scales = line_scales(*second.lines, cell, lags, alike); },
       [&] { result.offset = displacement(second, first, wavelength, cell); },
-      [&] { result.crests = crest_displacement(*second.lines, *first.lines, cell, wavelength * cell); },
+      [&] {
+        result.crests = crest_displacement(*second.lines, *first.lines, cell, wavelength * cell);
+        if (equal(first.elevation, second.elevation)) clear_known(result.crests);
+        result.map.add(layer::displacement, displacement_layer(result.crests, grid, settings.direction));
+      },
       [&] { result.coherence = coherence(*first.lines, *second.lines, cell, segment); });
-  if (equal(first.elevation, second.elevation)) clear_known(result.crests);
-  result.map.add(layer::displacement, displacement_layer(result.crests, grid, settings.direction));
   if (start != nullptr) result.skill = forecast_skill(grid, first, second, origin, settings.direction);
   result.a = std::move(first.figures);
   result.b = std::move(second.figures);

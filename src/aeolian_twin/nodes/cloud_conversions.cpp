@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,17 +79,19 @@ void append(const std::uint8_t* from, std::size_t step, std::size_t count, std::
 
 }  // namespace
 
-PointCloud to_point_cloud(const PointCloud2& message) {
-  return to_point_cloud(message, message.data.data(), message.data.size());
+PointCloud to_point_cloud(const PointCloud2& message, PointCloud reused) {
+  return to_point_cloud(message, message.data.data(), message.data.size(), std::move(reused));
 }
 
-PointCloud to_point_cloud(const PointCloud2& message, const std::uint8_t* data, std::size_t size) {
+PointCloud to_point_cloud(const PointCloud2& message, const std::uint8_t* data, std::size_t size,
+                          PointCloud reused) {
   const Coordinate x = find_coordinate(message, "x");
   const Coordinate y = find_coordinate(message, "y");
   const Coordinate z = find_coordinate(message, "z");
   check_size(message, size);
   constexpr double far = 1000;  // a float still resolves 0.06 mm here
-  PointCloud cloud;
+  PointCloud cloud = std::move(reused);
+  cloud.clear();
   cloud.reserve(std::size_t{message.width} * message.height);
   const std::size_t row_step = message.height <= 1 ? 0 : message.row_step;
   const auto for_each_point = [&](auto&& visit) {

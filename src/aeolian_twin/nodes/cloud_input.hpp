@@ -11,10 +11,16 @@
 
 namespace aeolian {
 
+/// The points of a message, in memory that serves again.
+inline const PointCloud& points_of(const sensor_msgs::PointCloud2& message, PointCloud& memory) {
+  memory = to_point_cloud(message, std::move(memory));
+  return memory;
+}
+
 /// The clouds of one sensor, each with the pose that tf gives for when it was measured: a cloud waits until
 /// tf knows it. What is amiss is told, and the next cloud is waited for. Needs no master.
 ///
-/// `Message` has a header and is what to_point_cloud() takes.
+/// `Message` has a header and is what points_of() takes.
 template <class Message>
 class CloudInput {
  public:
@@ -41,10 +47,11 @@ class CloudInput {
 
  private:
   void take(const ConstPtr& cloud) {
-    placer_.take(cloud->header, [&]() -> decltype(auto) { return to_point_cloud(*cloud); });
+    placer_.take(cloud->header, [&]() -> decltype(auto) { return points_of(*cloud, points_); });
   }
 
   CloudPlacer placer_;
+  PointCloud points_;  ///< memory for those of a message
   tf2_ros::MessageFilter<Message> filter_;
 };
 

@@ -56,11 +56,11 @@ HeightMap to_height_map(const grid_map_msgs::GridMap& message, const std::vector
 /// Any order of fields, float32 or float64, either byte order, padded rows. Points that are not finite are
 /// kept. The origin is the first finite point in whole metres when a coordinate exceeds 1000 m, else zero.
 /// Throws Error for a field x, y or z that is missing or of another type, and for data whose size does not
-/// fit.
-PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message);
+/// fit. `reused`: a cloud that is no longer needed, whose memory serves for the new one.
+PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message, PointCloud reused = {});
 /// The same of a message whose data, `size` bytes, stand elsewhere.
-PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message, const std::uint8_t* data,
-                          std::size_t size);
+PointCloud to_point_cloud(const sensor_msgs::PointCloud2& message, const std::uint8_t* data, std::size_t size,
+                          PointCloud reused = {});
 /// x, y, z as floats about the cloud's origin, in the cloud's order, in rows of `width` points (0: one row).
 /// The header is the caller's.
 sensor_msgs::PointCloud2 to_message(const PointCloud& cloud, std::size_t width = 0);

@@ -9,7 +9,6 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/autosave.hpp"
@@ -18,7 +17,9 @@
 #include "aeolian_twin/nodes/map_keeper.hpp"
 #include "aeolian_twin/nodes/map_publisher.hpp"
 #include "aeolian_twin/nodes/map_services.hpp"
+#include "aeolian_twin/nodes/message_pool.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/transform_input.hpp"
 
 namespace aeolian {
 namespace {
@@ -67,7 +68,7 @@ class HeightMapper : public Node {
   }
 
   void listen(const std::vector<SensorSettings>& sensors, const Tell& tell) {
-    listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
+    transforms_ = std::make_unique<TransformInput>(tf_buffer_);
     const CloudPlacer::Frames frames{tf_buffer_, parameters().text("frame_id"),
                                      ros::WallDuration(parameters().number("tf_timeout")),
                                      static_cast<std::uint32_t>(parameters().integer("queue_size"))};
@@ -77,8 +78,12 @@ class HeightMapper : public Node {
     for (SensorSettings sensor : sensors) {
       sensor.topic = nh().resolveName(sensor.topic);
       inputs_.push_back(std::make_unique<Input>(sensor, frames, use, tell, nh().getCallbackQueue()));
-      subscribers_.push_back(nh().subscribe<sensor_msgs::PointCloud2>(sensor.topic, frames.queue_size,
-                                                                      &Input::add, inputs_.back().get()));
+      ros::SubscribeOptions options;
+      options.init<sensor_msgs::PointCloud2>(
+          sensor.topic, frames.queue_size,
+          [input = inputs_.back().get()](const Input::ConstPtr& cloud) { input->add(cloud); },
+          MessagePool<sensor_msgs::PointCloud2>());
+      subscribers_.push_back(nh().subscribe(options));
     }
   }
 
@@ -182,7 +187,7 @@ class HeightMapper : public Node {
   bool unsaved_ = false;
 
   tf2_ros::Buffer tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<TransformInput> transforms_;
   std::vector<std::unique_ptr<Input>> inputs_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber patch_subscriber_;

@@ -8,12 +8,12 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include "aeolian_core/measure/profile_strip.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/transform_input.hpp"
 #include "aeolian_twin/photo/measured_photo.hpp"
 #include "aeolian_twin/photo/overlay.hpp"
 
@@ -52,7 +52,7 @@ class ShadowProfiler : public Node {
     cloud_publisher_ = nh().advertise<sensor_msgs::PointCloud2>("profile_points", 1, /*latch=*/true);
     transport_ = std::make_unique<image_transport::ImageTransport>(nh());
     overlay_publisher_ = transport_->advertise("overlay", 1, /*latch=*/true);
-    listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
+    transforms_ = std::make_unique<TransformInput>(tf_buffer_);
     camera_subscriber_ = nh().subscribe("camera_info", 1, &ShadowProfiler::take_camera, this);
     image_subscriber_ = transport_->subscribe("image", 2, &ShadowProfiler::take_image, this);
     retry_ =
@@ -224,7 +224,7 @@ class ShadowProfiler : public Node {
   ros::WallTimer retry_;
 
   tf2_ros::Buffer tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<TransformInput> transforms_;
   std::unique_ptr<image_transport::ImageTransport> transport_;
   image_transport::Subscriber image_subscriber_;
   image_transport::Publisher overlay_publisher_;

@@ -11,7 +11,6 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include "aeolian_core/slide/piles/site_piles.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -20,6 +19,7 @@
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
 #include "aeolian_twin/nodes/slide_settings.hpp"
+#include "aeolian_twin/nodes/transform_input.hpp"
 
 namespace aeolian {
 namespace {
@@ -70,7 +70,7 @@ class SlideForecaster : public Node {
     slide_ = read_slide(parameters());
     make_piles(slide_);  // refuses what is not possible before anything is advertised
     publisher_ = nh().advertise<grid_map_msgs::GridMap>("pile", 10, /*latch=*/true);
-    listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
+    transforms_ = std::make_unique<TransformInput>(tf_buffer_);
     WantedMap wanted;
     wanted.layers = {layer::elevation, layer::variance};
     wanted.accept = [this](const std::string& topic, const std_msgs::Header& header) {
@@ -198,7 +198,7 @@ class SlideForecaster : public Node {
 
   PlacedSlide slide_;  ///< as the parameters say
   tf2_ros::Buffer tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<TransformInput> transforms_;
   std::unique_ptr<MapReceiver> receiver_;
   ros::Publisher publisher_;
   ros::Subscriber slab_subscriber_;

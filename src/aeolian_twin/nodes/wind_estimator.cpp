@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include "aeolian_twin/nodes/map_receiver.hpp"
 #include "aeolian_twin/nodes/node.hpp"
+#include "aeolian_twin/nodes/transform_input.hpp"
 #include "aeolian_twin/nodes/wind_probes.hpp"
 #include "aeolian_twin/nodes/wind_reader.hpp"
 
@@ -27,7 +27,7 @@ class WindEstimator : public Node {
     reader_ = std::make_unique<WindReader>(parameters(), nh().resolveName("wind"), tf_buffer_, tell);
     publisher_ = nh().advertise<grid_map_msgs::GridMap>("wind_field", 100);
     statistics_publisher_ = nh().advertise<aeolian_msgs::WindStatistics>("wind_statistics", 100);
-    listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_);
+    transforms_ = std::make_unique<TransformInput>(tf_buffer_);
     probes_ = std::make_unique<WindProbes>(nh(), *reader_, parameters().text("frame_id"), tf_buffer_, tell);
     WantedMap wanted;
     wanted.layers = {layer::elevation};
@@ -65,7 +65,7 @@ class WindEstimator : public Node {
   std::unique_ptr<WindReader> reader_;
   ros::WallTime received_;
   tf2_ros::Buffer tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<TransformInput> transforms_;
   std::unique_ptr<WindProbes> probes_;
   std::unique_ptr<MapReceiver> receiver_;
   ros::Publisher publisher_;

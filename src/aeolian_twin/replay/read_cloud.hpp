@@ -20,7 +20,7 @@ struct ReadCloud {
 };
 
 /// Throws Error for a message that was refused.
-inline const PointCloud& to_point_cloud(const ReadCloud& cloud) {
+inline const PointCloud& points_of(const ReadCloud& cloud, PointCloud& /*memory*/) {
   if (!cloud.refused.empty()) throw Error(cloud.refused);
   return cloud.points;
 }

@@ -14,6 +14,7 @@
 #include <grid_map_msgs/GridMap.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <tbb/parallel_for.h>
 
 #include "aeolian_core/measure/ripple_statistics.hpp"
 #include "aeolian_core/surface/csv.hpp"
@@ -165,7 +166,11 @@ class RunReader {
 
   Run read() {
     std::size_t number = 0;
-    twin_.for_each<GridMap>("/height_map", [&](const GridMap& m) { add_state(m, number++); });
+    twin_.for_each<GridMap>("/height_map", [&](const GridMap& m) {
+      add_state(m, number++);
+      if (unread_.size() == read_together) read_ripples();
+    });
+    read_ripples();
     for (std::size_t i = 0; i < maps_.size(); ++i) run_.states[i].time = seconds(maps_[i].stamp);
     twin_.for_each<aeolian_msgs::Comparison>("/comparison",
                                              [&](const aeolian_msgs::Comparison& m) { add_score(m); });
@@ -190,16 +195,28 @@ class RunReader {
     if (!maps_.empty() && stamp == maps_.back().stamp) {
       run_.states.pop_back();
       maps_.pop_back();
+      if (!unread_.empty()) unread_.pop_back();
     }
-    const HeightMap map = to_height_map(message, {layer::elevation});
-    const HeightMap::Layer& elevation = map.layer(layer::elevation);
-    const double direction = std::isnan(run_.wind_direction) ? 0 : run_.wind_direction;
-    const RippleStatistics ripples = ripple_statistics(map.geometry(), elevation, direction);
+    unread_.push_back(to_height_map(message, {layer::elevation}));
+    const HeightMap::Layer& elevation = unread_.back().layer(layer::elevation);
     run_.states.push_back(
-        {0, ripples.wavelength, ripples.height,
-         static_cast<double>(count_known(elevation)) / static_cast<double>(elevation.size()),
+        {0, NAN, NAN, static_cast<double>(count_known(elevation)) / static_cast<double>(elevation.size()),
          wind_.friction_velocity(maps_.empty() ? start_ : maps_.back().stamp, stamp)});
     maps_.push_back({stamp, number});
+  }
+
+  /// Tells the newest states the ripples of their maps.
+  void read_ripples() {
+    const double direction = std::isnan(run_.wind_direction) ? 0 : run_.wind_direction;
+    const std::size_t first = run_.states.size() - unread_.size();
+    tbb::parallel_for(std::size_t{0}, unread_.size(), [&](std::size_t i) {
+      const HeightMap& map = unread_[i];
+      const RippleStatistics ripples =
+          ripple_statistics(map.geometry(), map.layer(layer::elevation), direction);
+      run_.states[first + i].wavelength = ripples.wavelength;
+      run_.states[first + i].height = ripples.height;
+    });
+    unread_.clear();
   }
 
   void add_score(const aeolian_msgs::Comparison& m) {
@@ -255,6 +272,8 @@ class RunReader {
   WindHistory wind_;
   ros::Time start_;
   std::vector<Recorded> maps_;  ///< of the states
+  static constexpr std::size_t read_together = 16;
+  std::vector<HeightMap> unread_;  ///< of the newest states, whose ripples are not known yet
   std::optional<Truth> truth_;
   Run run_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -132,6 +133,17 @@ TEST(CloudConversion, KeepsPointsThatAreNotFiniteInTheirPlace) {
 TEST(CloudConversion, AnEmptyCloudHasNoPoints) {
   EXPECT_EQ(to_point_cloud(make_cloud({}, 0, 0)).size(), 0U);
   EXPECT_EQ(to_point_cloud(make_cloud({}, 0, 1)).size(), 0U);
+}
+
+TEST(CloudConversion, NothingOfTheCloudWhoseMemoryIsReusedRemains) {
+  Format far;
+  far.is_double = true;
+  PointCloud cloud = to_point_cloud(make_cloud(far, 1300, 3, 5403210.126));
+  const float* const memory = cloud.x.data();
+  cloud = to_point_cloud(make_cloud({}), std::move(cloud));
+  expect_points(cloud);
+  EXPECT_EQ(cloud.origin_x, 0);
+  EXPECT_EQ(cloud.x.data(), memory);
 }
 
 TEST(CloudConversion, OneRowNeedsNoRowStep) {
