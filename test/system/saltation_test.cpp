@@ -80,6 +80,41 @@ TEST(SaltationTest, a_mixture_is_told_by_size) {
   EXPECT_NEAR(flux / mean["mass_flux_kg_m_s"].as<double>(), 1, 0.05);
 }
 
+TEST(SaltationTest, the_flux_of_a_place_is_told) {
+  const TemporaryFolder folder;
+  const std::string command = "saltation --friction-velocity 0.35 --out " + folder.file("out");
+  const auto site = [&](const std::string& flags) {
+    const Outcome run = run_program(command + flags);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return YAML::LoadFile(folder.file("out/site.yaml"));
+  };
+  const auto value = [](const YAML::Node& node, const char* key) { return node[key].as<double>(); };
+  const YAML::Node level = site(" --slope-deg 0");
+  EXPECT_EQ(level["starts_without_grains_from_upwind"].as<std::string>(), "true");
+  const YAML::Node short_plot = site(" --fetch-m 2.379591837");  // twice 2.2 d rho_s / rho
+  EXPECT_NEAR(value(short_plot, "mass_flux_kg_m_s") / value(level, "mass_flux_kg_m_s"), 1 - std::exp(-2.0),
+              1e-4);
+  const YAML::Node rising = site(" --slope-deg 10");
+  const double factor = std::sqrt(std::sin((33 + 10) * M_PI / 180) / std::sin(33 * M_PI / 180));
+  EXPECT_NEAR(value(rising, "impact_threshold_m_s") / value(level, "impact_threshold_m_s"), factor, 1e-4);
+  EXPECT_LT(value(rising, "mass_flux_kg_m_s"), value(level, "mass_flux_kg_m_s"));
+  const YAML::Node damp = site(" --cohesion 0.005");
+  EXPECT_EQ(damp["starts_without_grains_from_upwind"].as<std::string>(), "false");
+  EXPECT_EQ(value(damp, "mass_flux_kg_m_s"), value(level, "mass_flux_kg_m_s"));
+}
+
+TEST(SaltationTest, grains_from_upwind_fly_higher_over_hard_ground) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      run_program("saltation --friction-velocity 0.5 --hard-ground-flux 0.01 --out " + folder.file("out"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const YAML::Node hard = YAML::LoadFile(folder.file("out/hard_ground.yaml"));
+  const YAML::Node sand = YAML::LoadFile(folder.file("out/summary.yaml"))["state"];
+  EXPECT_EQ(hard["outcome"].as<std::string>(), "steady");
+  EXPECT_NEAR(hard["mass_flux_kg_m_s"].as<double>(), 0.01, 1e-4);
+  EXPECT_GT(hard["mean_hop_height_m"].as<double>(), 2 * sand["mean_hop_height_m"].as<double>());
+}
+
 TEST(SaltationTest, too_weak_a_wind_is_a_result) {
   const TemporaryFolder folder;
   const Outcome run = run_program("saltation --friction-velocity 0.1 --out " + folder.file("out"));
@@ -112,6 +147,11 @@ TEST(SaltationTest, bad_input_is_told_by_flag_and_value) {
               {"--friction-velocity 0.4 --splash werner --mixture absent.csv", "--mixture"},
               {"--friction-velocity 0.4 --gusts absent.csv", "absent.csv"},
               {"--friction-velocity 0.1 --gusts absent.csv", "--gusts"},
+              {"--friction-velocity 0.4 --slope-deg 40", "--slope-deg: 40, must be between -33 and 33"},
+              {"--friction-velocity 0.4 --slope-deg nan", "--slope-deg: nan"},
+              {"--friction-velocity 0.1 --fetch-m 3", "needs a flux law"},
+              {"--friction-velocity 0.4 --cohesion -1", "--cohesion"},
+              {"--friction-velocity 0.4 --hard-ground-flux 0", "--hard-ground-flux"},
               {"--friction-velocity 0.4 --air-density 0", "--air-density"}};
   for (const auto& row : rows) {
     const Outcome run = run_program(std::string("saltation ") + row.arguments + out);

@@ -104,6 +104,15 @@ void write_saltation_tables(const SaltationRun& run, const std::string& folder) 
   write_csv(launch_table(wind.state), folder + "/launches.csv");
 }
 
+void write_state(const SolvedWind& wind, const std::string& path) {
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  out.SetDoublePrecision(summary_digits);
+  put_state(out, wind);
+  out << YAML::EndMap;
+  write_text_atomically(path, std::string(out.c_str()) + "\n");
+}
+
 void write_gusts(const GustRun& g, const std::string& folder) {
   Table table{{"t_s", "friction_velocity_m_s", "steady_flux_kg_m_s", "relaxed_flux_kg_m_s"},
               {g.time, g.friction_velocity, g.steady, g.relaxed}};

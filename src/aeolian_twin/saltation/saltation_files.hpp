@@ -43,6 +43,8 @@ const char* outcome_word(SteadyState::Outcome outcome);
 void write_saltation_tables(const SaltationRun& run, const std::string& folder);
 /// Writes gusts.csv.
 void write_gusts(const GustRun& gusts, const std::string& folder);
+/// Writes the figures of one wind as a YAML file.
+void write_state(const SolvedWind& wind, const std::string& path);
 /// Writes summary.yaml.
 void write_saltation_summary(const SaltationRun& run, const std::optional<GustRun>& gusts,
                              const std::string& folder);

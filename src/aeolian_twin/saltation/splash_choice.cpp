@@ -7,6 +7,7 @@
 #include "aeolian_core/saltation/distribution_kernel.hpp"
 #include "aeolian_core/saltation/kok_renno_kernel.hpp"
 #include "aeolian_core/saltation/sampled_kernel.hpp"
+#include "aeolian_core/saltation/supplied_state.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -20,6 +21,11 @@ SplashSampling out_of_pockets() {
 }
 
 }  // namespace
+
+std::unique_ptr<SplashKernel> hard_ground_choice(const SaltatingBed& bed) {
+  return std::make_unique<SampledKernel>(hard_ground_splash(bed.grain), "hard_ground", bed.grain,
+                                         bed.atmosphere, out_of_pockets());
+}
 
 std::unique_ptr<SplashKernel> splash_choice(const std::string& value, const SaltatingBed& bed,
                                             int thesis_case) {

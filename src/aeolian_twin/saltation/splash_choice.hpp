@@ -14,4 +14,7 @@ namespace aeolian {
 std::unique_ptr<SplashKernel> splash_choice(const std::string& value, const SaltatingBed& bed,
                                             int thesis_case);
 
+/// Of ground that gives no grains of its own.
+std::unique_ptr<SplashKernel> hard_ground_choice(const SaltatingBed& bed);
+
 }  // namespace aeolian

@@ -12,10 +12,12 @@
 #include "aeolian_core/saltation/transient_saltation.hpp"
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
+#include "aeolian_core/wind/direction.hpp"
 #include "aeolian_core/wind/log_law.hpp"
 #include "aeolian_core/wind/wind_record.hpp"
 #include "aeolian_twin/saltation/mixture_files.hpp"
 #include "aeolian_twin/saltation/saltation_plots.hpp"
+#include "aeolian_twin/saltation/site.hpp"
 #include "aeolian_twin/saltation/splash_choice.hpp"
 #include "aeolian_twin/tools/program.hpp"
 
@@ -35,6 +37,8 @@ ungar_haff (one speed of launch), coarse_sand (Werner's experiment), table:FILE 
 With --gusts a recorded wind (columns t_s, speed_m_s, direction_deg or from_deg) drives the flux: gusts.csv and gusts.svg.
 With --mixture (columns diameter_mm and share of the bed) grains of several sizes saltate in one wind, by kok_renno:
 mixture.csv (each size) and mixture.yaml (all together). All else is that of the mean diameter alone, for comparison.
+With --slope-deg, --cohesion or --fetch-m the flux at such a place: site.yaml. With --hard-ground-flux the grains that come
+from upwind over ground that gives none (a road, ice, a crust): hard_ground.yaml.
 
 With --write-table states over diameters of 0.1 to 1 mm and winds up to five times the threshold are kept in a file.)";
 
@@ -51,6 +55,9 @@ struct Options {
   std::string gusts;
   double anemometer_height = 1;
   bool in_time = false;
+  std::optional<double> slope_deg;
+  SiteConditions site;
+  std::optional<double> hard_ground_flux;
   std::string table;
   std::string out;
 };
@@ -142,6 +149,19 @@ void tell(const MixtureRun& run) {
     fmt::print("mixture of {} sizes: no saltation: {}\n", all.sizes.size(), all.sizes.front().reason);
 }
 
+void tell(const SiteRun& run) {
+  fmt::print("at the site: flux {:.4g} kg/(m s); threshold {:.3g} m/s, {:.3g} m/s to start\n", run.flux,
+             run.impact_threshold, run.fluid_threshold);
+}
+
+void tell_hard_ground(const SteadyState& s) {
+  if (s.steady())
+    fmt::print("over hard ground: hops {:.3g} m high and {:.3g} m long, u* at the ground {:.3g} m/s\n",
+               s.mean(s.landings.apex), s.mean(s.landings.length), s.surface_friction_velocity);
+  else
+    fmt::print("over hard ground: not steady: {}\n", s.reason);
+}
+
 void tell(const SaltationRun& run) {
   const SteadyState& s = run.asked().state;
   if (s.steady())
@@ -193,6 +213,12 @@ int run(int argc, char** argv) {
       ->needs(gusts);
   app.add_flag("--in-time", o.in_time, "solve the gusts in time, too (a quarter of a second for one of wind)")
       ->needs(gusts);
+  app.add_option("--slope-deg", o.slope_deg, "of the bed along the wind, positive where it rises downwind");
+  app.add_option("--cohesion", o.site.cohesion, "of grains [N/m]: 1.5e-4 for dry sand, more where it is damp")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--fetch-m", o.site.fetch, "of sand upwind [m]")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--hard-ground-flux", o.hard_ground_flux, "[kg/(m s)] that comes from upwind")
+      ->check(CLI::Range(1e-9, 1e3));
   app.add_option("--write-table", o.table, "CSV to keep states in");
   app.add_option("--out", o.out, "folder for the results")->required();
   if (const auto code = parse(app, argc, argv)) return *code;
@@ -214,6 +240,14 @@ int run(int argc, char** argv) {
   std::optional<GustRun> gust_run;
   if (!o.gusts.empty()) gust_run = blow(o, found, *splash);
 
+  std::optional<SiteRun> site;
+  if (o.slope_deg || o.site.cohesion || o.site.fetch) {
+    o.site.slope = degrees_to_radians(o.slope_deg.value_or(0));
+    site = at_site(found, o.site);
+  }
+  std::optional<SolvedWind> hard_ground;
+  if (o.hard_ground_flux) hard_ground = over_hard_ground(bed, o.friction_velocity, *o.hard_ground_flux);
+
   std::optional<MixtureRun> mixed;
   if (mixture) mixed = mix(bed, *mixture, o.friction_velocity);
 
@@ -225,6 +259,8 @@ int run(int argc, char** argv) {
     plot_gusts(*gust_run, o.out);
   }
   if (mixed) write_mixture(*mixed, o.out);
+  if (site) write_site(*site, o.out);
+  if (hard_ground) write_state(*hard_ground, o.out + "/hard_ground.yaml");
   write_saltation_summary(found, gust_run, o.out);
   if (!o.table.empty())
     SaltationTable::build(
@@ -233,6 +269,8 @@ int run(int argc, char** argv) {
         .write(o.table, typed_command("saltation", argc, argv));
   tell(found);
   if (mixed) tell(*mixed);
+  if (site) tell(*site);
+  if (hard_ground) tell_hard_ground(hard_ground->state);
   return 0;
 }
 
