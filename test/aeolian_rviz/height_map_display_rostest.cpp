@@ -159,10 +159,14 @@ TEST_F(HeightMapDisplayTest, KeepsTheLastGoodSurfaceThroughForeignMaps) {
 TEST_F(HeightMapDisplayTest, FlickersBetweenMeasuredAndPredicted) {
   HeightMap predicted = world();
   fill(predicted, patch, "difference", 0.8F);
-  forecast_.publish(to_message(predicted, header_));
+  const auto send_both = [&, measured = to_message(world(), header_),
+                          forecast = to_message(predicted, header_)] {
+    whole_.publish(measured);
+    forecast_.publish(forecast);
+  };
   for (int turn = 0; turn < 2; ++turn) {
-    EXPECT_TRUE(shows(world(), [](const Picture& p) { return is_red(middle_of(p, patch)); })) << "predicted";
-    EXPECT_TRUE(shows(world(), [](const Picture& p) { return is_blue(middle_of(p, patch)); })) << "measured";
+    EXPECT_TRUE(wait(send_both, [](const Picture& p) { return is_red(middle_of(p, patch)); })) << "predicted";
+    EXPECT_TRUE(wait(send_both, [](const Picture& p) { return is_blue(middle_of(p, patch)); })) << "measured";
   }
 }
 
