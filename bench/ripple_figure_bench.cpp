@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "draw_figures.hpp"
+#include "windy_sand.hpp"
 #include <fmt/format.h>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
@@ -28,9 +29,7 @@ struct Sample {
 
 Sample sample(double share) {
   const GridGeometry g(0, 0, 0.002, 250, 128);
-  Grain grain;
-  grain.diameter = 0.0004;
-  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  const Forcing forcing = windy_sand();
   RippleParameters p;
   p.border = Border::periodic;
   p.stochastic_share = share;

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "windy_sand.hpp"
 #include <benchmark/benchmark.h>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
@@ -69,9 +70,7 @@ BENCHMARK(fastest_mode)->ArgsProduct({{20, 10, 5, 4, 3, 2}, {0, 17, 30, 45}})->U
 /// A minute of ripples 1.6 mm rms high on 500 x 256 mm; the argument is the step in sixteenths.
 void step(benchmark::State& state) {
   const GridGeometry g(0, 0, 0.002, 250, 128);
-  Grain grain;
-  grain.diameter = 0.0004;
-  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  const Forcing forcing = windy_sand();
   RippleParameters p;
   p.border = Border::periodic;
   p.step = 1.0 / 16;
@@ -114,9 +113,7 @@ void error_bound(benchmark::State& state) {
   };
   static std::map<std::int64_t, Bed> beds;
   const GridGeometry g(0, 0, 0.002, 250, 128);
-  Grain grain;
-  grain.diameter = 0.0004;
-  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  const Forcing forcing = windy_sand();
   RippleParameters p;
   p.border = Border::periodic;
   const auto rms = [&](const std::vector<double>& a, const std::vector<double>& b) {
@@ -156,9 +153,7 @@ BENCHMARK(error_bound)
 /// theirs in a step, in percent.
 void stochastic(benchmark::State& state) {
   const GridGeometry g(0, 0, 0.002, 500, 250);
-  Grain grain;
-  grain.diameter = 0.0004;
-  const Forcing forcing = make_forcing(steady_saltation(0.45, grain), 0.3, grain, MeanSplash{});
+  const Forcing forcing = windy_sand();
   RippleParameters p;
   p.stochastic_share = static_cast<double>(state.range(0)) / 100;
   std::vector<double> start(g.size());

@@ -41,11 +41,10 @@ class HoppingOn : public Splash {
 };
 
 /// The thesis' share of slow grains that hop on is lost with its table; u*_eff lies between none and all.
-void bracket_rows(AccuracyTable& table, const SaltatingBed& bed, const std::shared_ptr<const Splash>& splash,
-                  const SplashSampling& sampling) {
+void bracket_rows(AccuracyTable& table, const SaltationSolver& staying,
+                  const std::shared_ptr<const Splash>& splash, const SplashSampling& sampling) {
+  const SaltatingBed& bed = staying.bed();
   const double least = 1.001 * sampling.slowest * std::sqrt(bed.atmosphere.gravity * bed.grain.diameter);
-  const SaltationSolver staying(bed,
-                                SampledKernel(splash, "coarse_sand", bed.grain, bed.atmosphere, sampling));
   const SaltationSolver hopping(bed, SampledKernel(std::make_shared<HoppingOn>(splash, least), "hopping_on",
                                                    bed.grain, bed.atmosphere, sampling));
   const struct { double u, thesis; } winds[] = {{0.5, 25.6}, {1, 25.1}, {1.25, 21.5}};
@@ -96,7 +95,7 @@ void coarse_rows(AccuracyTable& table) {
     table.range_row("backward launches [%]" + drag, 0, 1, 100 * back);
     table.range_row("impacts over 300 cm/s that are steeper than 21 degrees [%]" + drag, 0, 0.5,
                     100 * steep / fast);
-    if (scale == 1) bracket_rows(table, bed, splash, sampling);
+    if (scale == 1) bracket_rows(table, solver, splash, sampling);
   }
 }
 

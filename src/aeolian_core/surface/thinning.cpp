@@ -5,6 +5,10 @@
 
 namespace aeolian {
 
+int cells_within(const GridGeometry& geometry, double length) {
+  return std::max(1, static_cast<int>(std::floor(length / geometry.cell() * (1 + 1e-9))));
+}
+
 GridGeometry thinned(const GridGeometry& geometry, int factor) {
   const auto blocks = [factor](int cells) { return (cells + factor - 1) / factor; };
   return {geometry.origin_x(), geometry.origin_y(), geometry.cell() * factor, blocks(geometry.nx()),

@@ -5,6 +5,9 @@
 
 namespace aeolian {
 
+/// How many cells are side by side in a length [m]: one or more.
+int cells_within(const GridGeometry& geometry, double length);
+
 /// The grid of blocks of factor x factor cells from the same origin; the last ones may reach beyond the map.
 GridGeometry thinned(const GridGeometry& geometry, int factor);
 

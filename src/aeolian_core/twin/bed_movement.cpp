@@ -1,9 +1,9 @@
 #include "aeolian_core/twin/bed_movement.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "aeolian_core/surface/resample.hpp"
+#include "aeolian_core/surface/thinning.hpp"
 
 namespace aeolian {
 namespace {
@@ -13,13 +13,11 @@ constexpr double side = 0.008;  // of a square [m]
 /// Elevations as means over squares of the grid's cells.
 HeightMap::Layer means(const HeightMap& map) {
   const GridGeometry& g = map.geometry();
-  const int factor = std::max(1, static_cast<int>(std::floor(side / g.cell() * (1 + 1e-9))));
+  const int factor = cells_within(g, side);
+  if (factor == 1) return map.layer(layer::elevation);
   HeightMap elevation(g);
   elevation.add(layer::elevation, map.layer(layer::elevation));
-  if (factor == 1) return elevation.layer(layer::elevation);
-  const auto count = [factor](int cells) { return (cells + factor - 1) / factor; };
-  const GridGeometry squares(g.origin_x(), g.origin_y(), factor * g.cell(), count(g.nx()), count(g.ny()));
-  return resample(elevation, squares).layer(layer::elevation);
+  return resample(elevation, thinned(g, factor)).layer(layer::elevation);
 }
 
 }  // namespace

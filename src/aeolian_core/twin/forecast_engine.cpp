@@ -91,12 +91,10 @@ bool ForecastEngine::is_due(double time) const {
 /// From the hindcast that ends with this map, if it is time for one.
 std::optional<ParameterLearner::Update> ForecastEngine::learn(const HeightMap& map, double time) {
   if (!learner_ || !settings_.learning) return std::nullopt;
+  std::optional<ParameterLearner::Update> update;
   if (lesson_) {
     if (seconds_between(lesson_->tried, time) < settings_.learning_period) return std::nullopt;
     lesson_->tried = time;
-  }
-  std::optional<ParameterLearner::Update> update;
-  if (lesson_) {
     update = learn(*lesson_, map, seconds_between(lesson_->time, time));
     if (!update) return std::nullopt;
     if (update->learned) judge(map, time);

@@ -10,6 +10,7 @@
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/surface/require.hpp"
 #include "aeolian_core/surface/resample.hpp"
+#include "aeolian_core/surface/thinning.hpp"
 #include "aeolian_core/twin/forecast_spread.hpp"
 #include "aeolian_core/twin/map_error.hpp"
 
@@ -30,12 +31,9 @@ std::uint64_t number_of(const std::vector<WindSpell>& wind) {
 /// also divides it.
 HeightMap coarsened(const HeightMap& map, double cell, bool repeats) {
   const GridGeometry& g = map.geometry();
-  int factor = std::max(1, static_cast<int>(std::floor(cell / g.cell() * (1 + 1e-9))));
+  int factor = cells_within(g, cell);
   while (repeats && (g.nx() % factor != 0 || g.ny() % factor != 0)) --factor;
-  if (factor == 1) return map;
-  const auto count = [factor](int cells) { return (cells + factor - 1) / factor; };
-  return resample(map,
-                  GridGeometry(g.origin_x(), g.origin_y(), factor * g.cell(), count(g.nx()), count(g.ny())));
+  return factor == 1 ? map : resample(map, thinned(g, factor));
 }
 
 /// The mean forcing to a lead time [s].

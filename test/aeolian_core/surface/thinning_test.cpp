@@ -20,6 +20,13 @@ HeightMap rough() {
   return map;
 }
 
+TEST(Thinning, CellsOfALengthAreNeverLessThanOne) {
+  EXPECT_EQ(cells_within(grid, 1), 4);
+  EXPECT_EQ(cells_within(grid, 0.99), 3);
+  EXPECT_EQ(cells_within(grid, 0.01), 1);
+  EXPECT_EQ(cells_within(GridGeometry(0, 0, 0.1, 5, 5), 0.3), 3);  // though 0.3 / 0.1 < 3
+}
+
 TEST(Thinning, IsTheResampledMap) {
   const HeightMap map = rough();
   for (const int factor : {2, 3, 8, 33}) {
