@@ -1,7 +1,10 @@
 #include "aeolian_core/twin/bed_movement.hpp"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_core/surface/thinning.hpp"
 
@@ -20,19 +23,35 @@ HeightMap::Layer means(const HeightMap& map) {
   return resample(elevation, thinned(g, factor)).layer(layer::elevation);
 }
 
+/// Of the squares that are known in both [m].
+std::vector<double> movements(const HeightMap& from, const HeightMap& to) {
+  const HeightMap::Layer before = means(from);
+  const HeightMap::Layer after = means(to);
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double change = static_cast<double>(after[i]) - static_cast<double>(before[i]);
+    if (std::isfinite(change)) changes.push_back(change);
+  }
+  return changes;
+}
+
 }  // namespace
 
 double rms_movement(const HeightMap& from, const HeightMap& to) {
-  const HeightMap::Layer before = means(from);
-  const HeightMap::Layer after = means(to);
   double sum = 0, count = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const double change = static_cast<double>(after[i]) - static_cast<double>(before[i]);
-    if (!std::isfinite(change)) continue;
+  for (const double change : movements(from, to)) {
     sum += change * change;
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+double median_movement(const HeightMap& from, const HeightMap& to) {
+  std::vector<double> changes = movements(from, to);
+  if (changes.empty()) return 0;
+  const double shared = median(changes);
+  for (double& change : changes) change = std::abs(change - shared);
+  return median(std::move(changes));
 }
 
 double mean_variance(const HeightMap& map) {

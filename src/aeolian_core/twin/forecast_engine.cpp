@@ -123,7 +123,9 @@ std::optional<ParameterLearner::Update> ForecastEngine::learn(const Lesson& less
   const EnsembleForecast hindcast =
       hindcasts_.run(lesson.start, wind, {period}, learner_->members(), learner_->median());
   const double noise = std::sqrt((lesson.variance + mean_variance(map)) / 2);
-  if (rms_movement(lesson.start, hindcast.forecasts.front().map) < least_movement * noise) {
+  const double moved = least_movement * noise;
+  const bool foreseen = rms_movement(lesson.start, hindcast.forecasts.front().map) >= moved;
+  if (!foreseen && median_movement(lesson.start, map) < moved) {
     if (period + settings_.learning_period <= longest) return std::nullopt;
     return nothing("the bed has hardly moved beyond the noise of the maps");
   }

@@ -29,10 +29,12 @@ struct ForecastJob {
 /// It learns from hindcasts: when a map comes, members go to it from an earlier one in the wind that blew, so
 /// that what they miss by is the parameters', not the weather's.
 ///
-/// A lesson waits, up to three times its period, until the hindcast has moved the bed beyond the noise of the
-/// maps: two standard deviations of a cell, RMS, on squares of 8 mm. As long as a live map cannot tell that
-/// the bed moves it takes it to be at rest and averages: it then lags by up to 18 s and loses up to 7 % of
-/// the ripples, which looks like ripples that hardly grow.
+/// A lesson waits, up to three times its period, until the bed has moved beyond the noise of the maps: two
+/// standard deviations of a cell on squares of 8 mm, RMS in the hindcast or half of the squares in the maps.
+/// As long as a live map cannot tell that the bed moves it takes it to be at rest and averages: it then lags
+/// by up to 18 s and loses up to 7 % of the ripples, which looks like ripples that hardly grow. And as long
+/// as the hindcast hardly moves, for too low a friction velocity was learned, it is the maps that tell
+/// better.
 ///
 /// What was learned over a minute moves forecasts only once it has proved itself over the time of a forecast:
 /// with each lesson, hindcasts with the learned and with the given parameters go to the newest map from the

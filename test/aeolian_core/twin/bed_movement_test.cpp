@@ -48,6 +48,24 @@ TEST(BedMovement, LeavesOutWhatIsUnknown) {
   EXPECT_EQ(rms_movement(ripples(0), half), 0);
 }
 
+TEST(BedMovement, OfHalfOfTheSquaresIsThatOfASine) {
+  // Half of the time a sine is beyond 1 / sqrt(2) of its amplitude.
+  const double phase = 2 * M_PI * 0.01 / wavelength;
+  const double kept = std::sin(M_PI * 0.008 / wavelength) / (4 * std::sin(M_PI * 0.002 / wavelength));
+  EXPECT_NEAR(median_movement(ripples(0), ripples(0.01)), kept * M_SQRT2 * amplitude * std::sin(phase / 2),
+              0.1 * amplitude);
+  EXPECT_EQ(median_movement(ripples(0), ripples(0)), 0);
+}
+
+TEST(BedMovement, OfHalfOfTheSquaresDoesNotCountFootprintsAndALiftedSensor) {
+  HeightMap lifted = ripples(0);
+  HeightMap::Layer& z = lifted.layer(layer::elevation);
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] += i < z.size() / 4 ? -0.02F : 0.01F;
+  EXPECT_NEAR(median_movement(ripples(0), lifted), 0, 1e-8);
+  z.assign(z.size(), HeightMap::unknown);
+  EXPECT_EQ(median_movement(ripples(0), lifted), 0);
+}
+
 TEST(BedMovement, MeanVarianceIsThatOfKnownCells) {
   HeightMap map = ripples(0);
   EXPECT_EQ(mean_variance(map), 0);

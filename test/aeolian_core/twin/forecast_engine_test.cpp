@@ -9,6 +9,7 @@
 #include "../../error_of.hpp"
 #include <gtest/gtest.h>
 
+#include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/twin/bed_movement.hpp"
 #include "aeolian_core/twin/map_error.hpp"
 
@@ -225,6 +226,48 @@ TEST(ForecastEngine, ALessonWaitsUntilTheBedHasMovedBeyondTheNoise) {
   EXPECT_NEAR(patient[2]->after.friction_velocity, 1, 0.02);
 }
 
+/// Independent from cell to cell.
+HeightMap with_noise(HeightMap map, double standard_deviation, std::uint64_t seed) {
+  RandomStream random(seed, 1);
+  for (float& z : map.layer(layer::elevation)) z += static_cast<float>(standard_deviation * random.normal());
+  map.add(layer::variance, static_cast<float>(standard_deviation * standard_deviation));
+  return map;
+}
+
+/// How many lessons are taken from nine maps that `later(seed)` makes of a bed at rest, in a weak wind.
+template <class Later>
+int lessons_at_rest(const Later& later) {
+  ForecastEngine engine(settings(true));
+  int lessons = 0;
+  for (int time = 0; time <= 180; ++time) {
+    engine.take_wind(sample(time, 0.23));
+    if (time % 20 != 0) continue;
+    const auto update = engine.take_map(later(time / 20), epoch + time).learned;
+    if (update && update->learned) ++lessons;
+  }
+  return lessons;
+}
+
+TEST(ForecastEngine, ABedAtRestTeachesNothingWhateverTheNoise) {
+  constexpr double noise = 0.0004;
+  const auto seen = [](std::uint64_t seed) { return with_noise(rippled(), noise, seed); };
+  EXPECT_EQ(lessons_at_rest(seen), 0);
+  EXPECT_EQ(lessons_at_rest([&](std::uint64_t seed) {
+              HeightMap lifted = seen(seed);
+              for (float& z : lifted.layer(layer::elevation)) z += 0.002F * static_cast<float>(seed);
+              return lifted;
+            }),
+            0);
+  EXPECT_EQ(lessons_at_rest([&](std::uint64_t seed) {
+              HeightMap trodden = seen(seed);
+              HeightMap::Layer& z = trodden.layer(layer::elevation);
+              const std::size_t part = z.size() / 6;
+              for (std::size_t i = 0; i < part; ++i) z[i + part * (seed % 6)] -= 0.002F;
+              return trodden;
+            }),
+            0);
+}
+
 TEST(ForecastEngine, ABedThatHardlyMovesTeachesNothing) {
   ForecastEngine engine = engine_with_wind(settings(true), 100);
   HeightMap map = rippled();
@@ -250,6 +293,7 @@ class ToldDay {
   }
 
   ForecastEngine::Settings chosen_;
+  double standard_deviation_ = 0;  ///< which maps tell of their cells [m]
 
   /// A map comes, and a minute goes by; so often. The last job.
   ForecastJob after(ForecastEngine& engine, int maps) {
@@ -257,7 +301,9 @@ class ToldDay {
     for (int i = 0; i < maps; ++i, ++minute_) {
       for (int second = minute_ == 0 ? 0 : -59; second <= 0; ++second)
         engine.take_wind(sample(60 * minute_ + second, 0.45 * factor_));
-      auto taken = engine.take_map(bed_, epoch + 60 * minute_);
+      HeightMap map = bed_;
+      map.add(layer::variance, static_cast<float>(standard_deviation_ * standard_deviation_));
+      auto taken = engine.take_map(map, epoch + 60 * minute_);
       if (taken.job) job = std::move(*taken.job);
       WindSpell breeze;
       breeze.samples = {sample(0, 0.45)};
@@ -290,17 +336,11 @@ TEST(ForecastEngine, WhatWasLearnedIsUsedOnceItHasForecastBetter) {
   EXPECT_NEAR(job.median.friction_velocity, 1 / 0.87, 0.03);
 }
 
-TEST(ForecastEngine, WhatWasLoadedIsUsedUntilItIsRefuted) {
-  ToldDay day(1);
-  day.chosen_.learner->least_spread = 0;
-  ForecastEngine engine(day.chosen_);
-  const std::string path = testing::TempDir() + "refuted.yaml";
-  ParameterLearner wrong = [&] {
-    ParameterLearner::Settings settings = *day.chosen_.learner;
-    settings.priors[0] = {1.3, 0.005, 0.5, 2};  // and quite sure of it
-    return ParameterLearner(settings);
-  }();
-  wrong.save(path);
+/// What three lessons have told with great certainty.
+void load_friction_velocity(ForecastEngine& engine, double factor, ParameterLearner::Settings settings) {
+  settings.priors[0] = {factor, 0.005, 0.5, 2};
+  const std::string path = testing::TempDir() + "sure.yaml";
+  ParameterLearner(settings).save(path);
   std::string text = [&] {
     std::ifstream file(path);
     return std::string(std::istreambuf_iterator<char>(file), {});
@@ -308,12 +348,34 @@ TEST(ForecastEngine, WhatWasLoadedIsUsedUntilItIsRefuted) {
   text.replace(text.find("updates: 0"), 10, "updates: 3");
   std::ofstream(path) << text;
   engine.learner()->load(path);
+}
+
+TEST(ForecastEngine, WhatWasLoadedIsUsedUntilItIsRefuted) {
+  ToldDay day(1);
+  day.chosen_.learner->least_spread = 0;
+  ForecastEngine engine(day.chosen_);
+  load_friction_velocity(engine, 1.3, *day.chosen_.learner);
   const ForecastJob first = day.after(engine, 1);
   EXPECT_NEAR(first.median.friction_velocity, 1.3, 1e-3);
   const ForecastJob job = day.after(engine, 6);
   EXPECT_FALSE(engine.believes());
   EXPECT_EQ(job.median.values(), UncertainParameters{}.values());
   EXPECT_EQ(job.members.front().values(), ParameterLearner(*day.chosen_.learner).members().front().values());
+}
+
+/// What an engine that is sure of a factor finds when a bed surely moves.
+double recovered_from(double factor) {
+  ToldDay day(1);
+  day.standard_deviation_ = 1e-4;
+  ForecastEngine engine(day.chosen_);
+  load_friction_velocity(engine, factor, *day.chosen_.learner);
+  day.after(engine, 14);
+  return engine.learner()->median().friction_velocity;
+}
+
+TEST(ForecastEngine, ABedThatIsSeenToMoveTeachesThoughWhatWasLearnedMovesNoSand) {
+  EXPECT_NEAR(recovered_from(0.7), 1, 0.03);
+  EXPECT_NEAR(recovered_from(0.51), 1, 0.03);  // 0.23 m/s, near the threshold
 }
 
 TEST(ForecastEngine, NothingIsLearnedFromAMapThatComesTooLate) {
