@@ -56,15 +56,14 @@ AEOLIAN_INLINE void store_lanes(double* to, const Lanes& lanes) {
 
 /// Rows to columns, in place.
 AEOLIAN_INLINE void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  using Order = long long __attribute__((vector_size(32)));
-  const Lanes ab_even = __builtin_shuffle(a, b, Order{0, 4, 2, 6});
-  const Lanes ab_odd = __builtin_shuffle(a, b, Order{1, 5, 3, 7});
-  const Lanes cd_even = __builtin_shuffle(c, d, Order{0, 4, 2, 6});
-  const Lanes cd_odd = __builtin_shuffle(c, d, Order{1, 5, 3, 7});
-  a = __builtin_shuffle(ab_even, cd_even, Order{0, 1, 4, 5});
-  b = __builtin_shuffle(ab_odd, cd_odd, Order{0, 1, 4, 5});
-  c = __builtin_shuffle(ab_even, cd_even, Order{2, 3, 6, 7});
-  d = __builtin_shuffle(ab_odd, cd_odd, Order{2, 3, 6, 7});
+  const Lanes ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
 }  // namespace aeolian

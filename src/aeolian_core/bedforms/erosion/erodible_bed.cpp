@@ -66,7 +66,7 @@ ErodibleBed::ErodibleBed(const HeightMap& map, double parcel, bool periodic)
   }
   covered_in_tile_.assign(
       static_cast<std::size_t>(changed_.tiles_x()) * static_cast<std::size_t>(changed_.tiles_y()), 0);
-  highest_of_block_.assign(static_cast<std::size_t>(blocks_x_ * blocks_y_),
+  highest_of_block_.assign(static_cast<std::size_t>(blocks_x_) * static_cast<std::size_t>(blocks_y_),
                            -std::numeric_limits<float>::infinity());
   highest_ = -std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < base_.size(); ++i) {
@@ -99,8 +99,9 @@ void ErodibleBed::raise_blocks(CellIndex c, float height) {
   const int bx = c.x / block_cells;
   const int by = c.y / block_cells;
   const auto raise = [&](int x, int y) {
-    float& highest = highest_of_block_[static_cast<std::size_t>((y + blocks_y_) % blocks_y_ * blocks_x_ +
-                                                                (x + blocks_x_) % blocks_x_)];
+    const auto row = static_cast<std::size_t>((y + blocks_y_) % blocks_y_);
+    const auto column = static_cast<std::size_t>((x + blocks_x_) % blocks_x_);
+    float& highest = highest_of_block_[row * static_cast<std::size_t>(blocks_x_) + column];
     highest = std::max(highest, height);
   };
   if (height > highest_of_block(bx, by)) raise(bx, by);

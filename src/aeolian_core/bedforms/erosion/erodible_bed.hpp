@@ -39,7 +39,8 @@ class ErodibleBed {
   /// No surface is above in a block of 8 x 8 cells, from their centres to those of the next blocks' first.
   static constexpr int block_cells = 8;
   float highest_of_block(int block_x, int block_y) const {
-    return highest_of_block_[static_cast<std::size_t>(block_y * blocks_x_ + block_x)];
+    return highest_of_block_[static_cast<std::size_t>(block_y) * static_cast<std::size_t>(blocks_x_) +
+                             static_cast<std::size_t>(block_x)];
   }
   /// The last places at which the surface can be looked up [cells].
   float last_x() const { return last_x_; }

@@ -101,8 +101,8 @@ const std::vector<SlideSweep::Move>& SlideSweep::find(ErodibleBed& bed, double t
     for_each_receiver(donor, [&](std::size_t cell) {
       // What n givers bring each is x / (n + 1): the half of the excess when there is one.
       const float due = donor.excess / static_cast<float>(givers_[cell] + shares) / unit;
-      const std::int32_t units =
-          static_cast<std::int32_t>(std::min(due, static_cast<float>(bed.loose(donor.cell) / shares)));
+      const std::int32_t share = bed.loose(donor.cell) / shares;
+      const auto units = static_cast<std::int32_t>(std::min(due, static_cast<float>(share)));
       if (units > 0) moves_.push_back({donor.cell, cell, units});
     });
   }

@@ -94,7 +94,8 @@ Hop HopTable::at(float along, float up) const {
   const int j = std::min(static_cast<int>(b), nodes_ - 2);
   const float s = a - static_cast<float>(i);
   const float t = b - static_cast<float>(j);
-  const Node* south = &table_[static_cast<std::size_t>(j * nodes_ + i)];
+  const Node* south =
+      &table_[static_cast<std::size_t>(j) * static_cast<std::size_t>(nodes_) + static_cast<std::size_t>(i)];
   const Node* north = south + nodes_;
   float v[values];
   for (std::size_t n = 0; n < values; ++n) {

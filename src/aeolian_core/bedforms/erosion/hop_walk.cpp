@@ -33,8 +33,8 @@ struct Arc {
 /// How many steps of a way, by (ex, ey) cells each, stay in the block of a place.
 int steps_in_block(const ErodibleBed& bed, float x, float y, float ex, float ey) {
   const auto steps = [&](float place, float each, int n) {
-    const auto first =
-        static_cast<float>(static_cast<int>(place) / ErodibleBed::block_cells * ErodibleBed::block_cells);
+    const int block = static_cast<int>(place) / ErodibleBed::block_cells;
+    const auto first = static_cast<float>(block * ErodibleBed::block_cells);
     const float last =
         std::min(first + ErodibleBed::block_cells, static_cast<float>(n)) - (bed.periodic() ? 0 : 0.5F);
     const float way = each > 0 ? last - place : place - first;

@@ -49,10 +49,12 @@ AEOLIAN_INLINE State moved(const State& p, const FlightStep& s, const float* sur
 
   const float ratio = above * s.per_roughness;
   const float log_height = logarithm(ratio > 1.0F ? ratio : 1.0F);
+  // Neither is below zero, and lround would not go into vectors: NOLINTBEGIN(bugprone-*)
   const std::int32_t n =
       static_cast<std::int32_t>(cy + 0.5F) * s.stride + static_cast<std::int32_t>(cx + 0.5F);
   const float wind_x = log_height * (uniform ? s.uniform_shear_x : shear[2 * n]);
   const float wind_y = log_height * (uniform ? s.uniform_shear_y : shear[2 * n + 1]);
+  // NOLINTEND(bugprone-*)
   const float du = wind_x - p.u, dv = wind_y - p.v;
   const float re = s.reynolds * std::sqrt(du * du + dv * dv + p.w * p.w);
   const float f = s.step * s.drag * (24.0F + re * (0.4F + 6.0F / (1.0F + std::sqrt(re))));

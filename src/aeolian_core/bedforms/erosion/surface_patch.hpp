@@ -27,7 +27,7 @@ struct SurfaceSquare {
     const int iy = static_cast<int>(cy);
     tx = cx - static_cast<float>(ix);
     ty = cy - static_cast<float>(iy);
-    south = bed.surface() + iy * bed.stride() + ix;
+    south = bed.surface() + std::ptrdiff_t{iy} * bed.stride() + ix;
     north = south + bed.stride();
     low = south[0] + tx * (south[1] - south[0]);
     high = north[0] + tx * (north[1] - north[0]);

@@ -57,7 +57,8 @@ LatticeBed::LatticeBed(int nx, int ny, double spacing, double angle_of_repose, s
   height_.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x)
-      height_[static_cast<std::size_t>(y * nx + x)] = static_cast<std::int16_t>((x + y) % 2);
+      height_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] =
+          static_cast<std::int16_t>((x + y) % 2);
   compare_neighbours();
   roughen(roughening);
 }

@@ -87,11 +87,11 @@ LatticeBed LatticeBed::from_elevation(const GridGeometry& geometry, const std::v
 
   const double datum =
       std::accumulate(elevation.begin(), elevation.end(), 0.0) / static_cast<double>(elevation.size());
+  constexpr int most_layers = std::numeric_limits<std::int16_t>::max() / 2;
   for (const double h : elevation)
-    if (!(std::abs(h - datum) < (std::numeric_limits<std::int16_t>::max() / 2) * bed.layer_))
+    if (!(std::abs(h - datum) < most_layers * bed.layer_))
       throw Error("lattice bed: an elevation is " + std::to_string(h - datum) +
-                  " m above the mean, must be within " +
-                  std::to_string((std::numeric_limits<std::int16_t>::max() / 2) * bed.layer_) + " m");
+                  " m above the mean, must be within " + std::to_string(most_layers * bed.layer_) + " m");
 
   ColumnHeights surface = at_columns(geometry, elevation, columns_per_cell, datum, bed.layer_);
   const double volume = std::accumulate(surface.value.begin(), surface.value.end(), 0.0);

@@ -66,9 +66,10 @@ class Bricklayer {
     const int columns = static_cast<int>(recipe_.length / (2.1 * r));
     const double pitch = recipe_.length / columns;
     const double sideways = std::min(0.04 * r, 0.49 * (pitch - 2 * r));
-    for (int i = 0; i < recipe_.grains; ++i)
-      grains_.add({(i % columns + 0.5) * pitch + jitter(sideways), (2 * (i / columns) + 1) * 1.004 * r},
-                  radius());
+    for (int i = 0; i < recipe_.grains; ++i) {
+      const int row = i / columns;
+      grains_.add({(i % columns + 0.5) * pitch + jitter(sideways), (2 * row + 1) * 1.004 * r}, radius());
+    }
     return std::move(grains_);
   }
 
@@ -103,7 +104,8 @@ class Bricklayer {
       Vector<Dim> velocity;
       place.x() = (i % columns + 0.5) * recipe_.length / columns + jitter(free);
       if constexpr (Dim == 3) place.y() = (i / columns % lines + 0.5) * recipe_.width / lines + jitter(free);
-      place[Dim - 1] = (i / (columns * lines) + 0.5) * cell + jitter(free);
+      const int level = i / (columns * lines);
+      place[Dim - 1] = (level + 0.5) * cell + jitter(free);
       for (int k = 0; k < Dim; ++k) velocity[k] = jitter(speed);
       grains_.add(place, r, velocity);
     }

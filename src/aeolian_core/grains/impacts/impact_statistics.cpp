@@ -67,6 +67,7 @@ void add_rebounds(const std::vector<const ImpactOutcome*>& outcomes, ImpactStati
 template <class Value>
 MeanValue over_ejecta(const std::vector<const ImpactOutcome*>& outcomes, Value value) {
   std::vector<std::vector<double>> groups;
+  groups.reserve(values.size());
   for (const ImpactOutcome* o : outcomes) {
     groups.emplace_back();
     for (const RisenGrain& grain : o->ejecta) groups.back().push_back(value(grain));
@@ -149,6 +150,7 @@ void add_ejecta(const std::vector<const ImpactOutcome*>& outcomes, double radius
 
 MeanValue mean_value(const std::vector<double>& values) {
   std::vector<std::vector<double>> groups;
+  groups.reserve(values.size());
   for (const double value : values) groups.push_back({value});
   return pooled_mean(groups);
 }
