@@ -16,6 +16,13 @@ constexpr int memory = 5;
 constexpr double gain = 0.4;
 constexpr double longest_step = 0.3;
 constexpr double surface_weight = 3;
+constexpr double furthest = 2;  ///< from a state, over the way to it that tells the direction
+
+/// How much the wind at the surface weakens for one that is free and grows stronger, nearly, whatever the
+/// splash. A third of surface over free wind in strong winds.
+double slackening(const SteadyState& state) {
+  return std::min(0.1, state.surface_friction_velocity / state.friction_velocity / 3);
+}
 
 }  // namespace
 
@@ -37,14 +44,31 @@ void Approach::set_winds(double free, double surface) {
   surface_ = surface;
 }
 
-void Approach::take(const SteadyState& other) {
+void Approach::begin_at(const SteadyState& other, double free) {
+  const double usual = slackening(other);
+  set_winds(free, other.surface_friction_velocity - usual * (free - other.friction_velocity));
   std::vector<double> first = splash_->first_spectrum();
   while (first.size() < other.spectrum.size())
     if (!splash_->extend(first)) return;
   if (first.size() != other.spectrum.size() || !(other.grain_stress[0] > 0)) return;
   spectrum_ = other.spectrum;
   for (std::size_t i = 0; i < share_.size(); ++i) share_[i] = other.grain_stress[i] / other.grain_stress[0];
-  if (other.mixing) mixing_ = *other.mixing;
+  begin_ = {other.friction_velocity, other.surface_friction_velocity, spectrum_, share_};
+  if (!other.past) return;
+  mixing_ = other.past->mixing;
+  if (other.past->begin) go_on_from(*other.past->begin, usual);
+}
+
+void Approach::go_on_from(const Past::Begin& before, double usual) {
+  const double way = begin_->free - before.free;
+  if (way == 0 || before.spectrum.size() != spectrum_.size()) return;
+  const double part = std::clamp((free_ - begin_->free) / way, -furthest, furthest);
+  surface_ += part * (begin_->surface - before.surface + usual * way);
+  for (std::size_t i = 0; i < share_.size(); ++i) share_[i] += part * (share_[i] - before.share[i]);
+  for (std::size_t i = 0; i < spectrum_.size(); ++i)
+    spectrum_[i] = std::max(0.0, spectrum_[i] + part * (spectrum_[i] - before.spectrum[i]));
+  const double grains = splash_->number(spectrum_);
+  for (double& p : spectrum_) p /= grains;
 }
 
 void Approach::step() {
@@ -137,9 +161,9 @@ SteadyState Approach::state() const {
   s.launches = launches_;
   s.landings = landings_;
   s.spectrum = next_spectrum_;
-  AndersonMixing mixing = mixing_;
-  mixing.begin_anew();
-  s.mixing = std::make_shared<const AndersonMixing>(std::move(mixing));
+  Past past{mixing_, begin_};
+  past.mixing.begin_anew();
+  s.past = std::make_shared<const Past>(std::move(past));
   s.grain_mass = bed_.grain.mass();
   const double borne = bed_.atmosphere.density * (free_ * free_ - surface_ * surface_);
   s.grain_stress = next_share_;

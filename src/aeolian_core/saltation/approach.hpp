@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "aeolian_core/saltation/flying_grains.hpp"
@@ -8,6 +9,16 @@
 #include "aeolian_core/saltation/steady_state.hpp"
 
 namespace aeolian {
+
+/// What the way to a state has told about its neighbours.
+struct Past {
+  struct Begin {
+    double free, surface;  ///< friction velocities [m/s]
+    std::vector<double> spectrum, share;
+  };
+  AndersonMixing mixing;
+  std::optional<Begin> begin;  ///< the neighbour that the way began at
+};
 
 /// A spectrum of launches and a wind on their way to the steady state.
 class Approach {
@@ -17,8 +28,9 @@ class Approach {
 
   /// The winds from now on: free, and at the surface, not above it [m/s].
   void set_winds(double free, double surface);
-  /// Spectrum and grains of another state, to begin with, and what is known of how they answer to changes.
-  void take(const SteadyState& other);
+  /// Begins at another state, moved on towards this free wind [m/s] as it was on its own way from a
+  /// neighbour, with what is known of how spectrum and grains answer to changes.
+  void begin_at(const SteadyState& other, double free);
 
   /// Flies the spectrum in the wind with the grains in it and lets it land.
   void step();
@@ -48,11 +60,16 @@ class Approach {
   SteadyState state() const;
 
  private:
+  /// Goes as far again as from `before` to where it began, and as much further or less far as the wind asks
+  /// for, whose surface was told to slacken by `usual` of what the free wind gains.
+  void go_on_from(const Past::Begin& before, double usual);
+
   const SaltatingBed& bed_;
   const FlyingGrains& grains_;
   double flight_tolerance_;
   std::unique_ptr<SplashKernel> splash_;
   AndersonMixing mixing_;
+  std::optional<Past::Begin> begin_;
   std::vector<double> spectrum_, share_;            ///< that were flown
   std::vector<double> next_spectrum_, next_share_;  ///< that came of it
   std::vector<double> stress_;

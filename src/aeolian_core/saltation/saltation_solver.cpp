@@ -21,12 +21,6 @@ const char* const too_fast = "grains leave the bed ever faster: the splash funct
 const char* const too_few = "less than one grain leaves for each that lands";
 const char* const restless = "numbers of grains and wind do not settle";
 
-/// How much the wind at the surface weakens for one that is free and grows stronger, nearly, whatever the
-/// splash: to begin with. A third of surface over free wind in strong winds.
-double slackening(const SteadyState& state) {
-  return std::min(0.1, state.surface_friction_velocity / state.friction_velocity / 3);
-}
-
 /// A few grains in the wind of a surface friction velocity that just keeps them up, found on the way.
 /// Returns that velocity.
 double thin_step(Approach& approach, double wind) {
@@ -85,8 +79,8 @@ SteadyState SaltationSolver::approach_from(double free, const SteadyState* begin
   const double most = pinned * free;
   double surface = 0.8 * bed_.fluid_threshold();
   if (begin) {
-    approach.take(*begin);
-    surface = begin->surface_friction_velocity - slackening(*begin) * (free - begin->friction_velocity);
+    approach.begin_at(*begin, free);
+    surface = approach.surface();
   } else {
     for (int n = 0; n < thin_steps; ++n) surface = thin_step(approach, surface);
   }

@@ -12,7 +12,7 @@
 
 namespace aeolian {
 
-class AndersonMixing;
+struct Past;
 
 /// Grains in air over a flat bed of them.
 struct SaltatingBed {
@@ -45,12 +45,12 @@ struct SteadyState {
   double friction_velocity = 0;          ///< u* of the free wind [m/s]
   double surface_friction_velocity = 0;  ///< u*_eff at the bed [m/s]
   WindProfile wind;
-  Launches launches;                             ///< number: per area and time [m^-2 s^-1]
-  Landings landings;                             ///< of classes that are launched, zero for others
-  std::vector<double> grain_stress;              ///< that the grains carry at the wind's levels [Pa]
-  std::vector<double> spectrum;                  ///< of one grain, the splash kernel's
-  double grain_mass = 0;                         ///< [kg]
-  std::shared_ptr<const AndersonMixing> mixing;  ///< what the way here has told about the next state
+  Launches launches;                 ///< number: per area and time [m^-2 s^-1]
+  Landings landings;                 ///< of classes that are launched, zero for others
+  std::vector<double> grain_stress;  ///< that the grains carry at the wind's levels [Pa]
+  std::vector<double> spectrum;      ///< of one grain, the splash kernel's
+  double grain_mass = 0;             ///< [kg]
+  std::shared_ptr<const Past> past;  ///< what the way here has told about the next state
 
   int iterations = 0;
   double replacement = 0;      ///< grains that leave for one that lands

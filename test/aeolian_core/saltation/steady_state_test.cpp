@@ -156,6 +156,20 @@ TEST(SteadyStateTest, a_neighbouring_wind_is_solved_in_a_few_steps_and_to_the_sa
   }
 }
 
+TEST(SteadyStateTest, the_way_to_a_state_tells_where_the_next_one_is) {
+  const SaltationSolver solver(thesis_bed(), thesis_splash(2));
+  const SteadyState first = solver.solve(0.7);
+  const SteadyState second = solver.solve(0.714, &first);
+  const SteadyState third = solver.solve(0.728, &second);
+  SteadyState without_past = second;
+  without_past.past = nullptr;
+  const SteadyState anew = solver.solve(0.728, &without_past);
+  ASSERT_TRUE(third.steady()) << third.reason;
+  EXPECT_LE(third.iterations, 2);
+  EXPECT_LT(third.iterations, anew.iterations);
+  EXPECT_NEAR(third.mass_flux(), anew.mass_flux(), 2e-3 * anew.mass_flux());
+}
+
 TEST(SteadyStateTest, a_grid_that_is_too_short_is_extended) {
   const auto splash = DistributionSplash::thesis_case(1);
   const SteadyState grown = SaltationSolver(thesis_bed(), DistributionKernel(splash, 0.05, 1)).solve(1.25);
