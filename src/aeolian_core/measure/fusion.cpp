@@ -1,5 +1,6 @@
 #include "aeolian_core/measure/fusion.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -115,6 +116,7 @@ struct HeightFusion::Workers {
     SampleBuckets buckets;
     PointCounts counts;
     CellMarks marks;
+    std::array<MarkedCells, 2> marked;  ///< of a tile and of the next, in turn
     HeightSteps steps;
     std::size_t outlier_cells = 0;
     std::size_t outliers = 0;
@@ -221,21 +223,30 @@ void HeightFusion::work_on_tiles(std::size_t points, FusionResult& result) {
       tbb::blocked_range<std::size_t>(0, active.size(), grain),
       [&](const tbb::blocked_range<std::size_t>& range) {
         Workers::Worker& own = workers_->of_threads.local();
+        const auto for_each_block = [&](std::size_t i, auto&& visit) {
+          for (const Workers::Worker& worker : workers_->of_threads)
+            worker.buckets.for_each(active[i], visit);
+        };
+        const auto fetch_next = [&](std::size_t i) -> CellsAhead {
+          if (i == range.end()) return {};
+          for_each_block(i, [&](const Sample* samples, std::size_t count) { own.marks.add(samples, count); });
+          own.marks.take(own.marked[i % 2]);
+          auto& tile = tiles_[active[i]];
+          if (!tile) tile = std::make_unique<FusionTile>();
+          return tile->prefetch(own.marked[i % 2].list);
+        };
+        fetch_next(range.begin()).fetch_rest();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const std::size_t at = active[i];
-          if (!tiles_[at]) tiles_[at] = std::make_unique<FusionTile>();
           FusionTile& tile = *tiles_[at];
           std::size_t agreeing = 0;
-          const auto for_each_block = [&](auto&& visit) {
-            for (const Workers::Worker& worker : workers_->of_threads) worker.buckets.for_each(at, visit);
-          };
-          if (i + 1 < range.end() && tiles_[active[i + 1]]) tiles_[active[i + 1]]->prefetch();
+          CellsAhead ahead = fetch_next(i + 1);
           tile.open(scan_, newest_, rules_);
-          for_each_block([&](const Sample* samples, std::size_t count) { own.marks.add(samples, count); });
-          tile.reach(own.marks, rules_, own.steps);
-          for_each_block([&](const Sample* samples, std::size_t count) {
-            agreeing += tile.add(samples, count, rules_);
+          tile.reach(own.marked[i % 2], rules_, own.steps, ahead);
+          for_each_block(i, [&](const Sample* samples, std::size_t count) {
+            agreeing += tile.add(samples, count, rules_, ahead);
           });
+          ahead.fetch_rest();
           const FusionTile::Verdicts verdicts = tile.verdicts(rules_);
           own.outlier_cells += verdicts.outlier_cells;
           own.outliers += verdicts.outliers;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace aeolian {
 namespace {
@@ -54,8 +53,6 @@ void for_each_cell(std::size_t y, CellSet::Row row, Visit&& visit) {
   for (; row != 0; row &= row - 1) visit(y * CellSet::side + static_cast<std::size_t>(__builtin_ctz(row)));
 }
 
-void fetch(const FilterCell& cell) { __builtin_prefetch(&cell, 1); }
-
 /// A row of a tile, whose first cell is at `first`.
 void fetch(const TileLayers& layers, std::size_t first) {
   constexpr std::size_t cells_per_line = 64 / sizeof(float);
@@ -81,11 +78,21 @@ CellSet::Row CellMarks::take_row(std::size_t y) {
   return row;
 }
 
-void FusionTile::prefetch() const {
+void CellMarks::take(MarkedCells& marked) {
+  marked.list.count = 0;
+  for (std::size_t y = 0; y < CellSet::side; ++y) {
+    const CellSet::Row row = take_row(y);
+    marked.set.row(y) = row;
+    marked.list.add(y, row);
+  }
+}
+
+CellsAhead FusionTile::prefetch(const CellList& list) const {
   constexpr std::size_t line = 64;
   const auto* const begin = reinterpret_cast<const char*>(this);
   const auto* const end = reinterpret_cast<const char*>(cells_.data());
   for (const char* at = begin; at < end; at += line) __builtin_prefetch(at, 1);
+  return {cells_.data(), list};
 }
 
 void FusionTile::open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules) {
@@ -107,32 +114,29 @@ bool FusionTile::gathers_on(std::uint32_t time, const FusionRules& rules) const 
          time - gathering_since_ < rules.gathering_time;
 }
 
-void FusionTile::reach(CellMarks& marks, const FusionRules& rules, HeightSteps& steps) {
-  std::array<std::uint16_t, cell_count> cells;
-  std::size_t count = 0;
-  for (std::size_t y = 0; y < side; ++y) {
-    const CellSet::Row marked = marks.take_row(y);
-    unwritten_.row(y) |= marked;
-    for_each_cell(y, marked & open_.row(y), [&](std::size_t cell) { fetch(cells_[cell]); });
-    for_each_cell(y, marked & ~open_.row(y),
-                  [&](std::size_t cell) { cells[count++] = static_cast<std::uint16_t>(cell); });
-    open_.row(y) |= marked;
+void FusionTile::reach(const MarkedCells& marked, const FusionRules& rules, HeightSteps& steps,
+                       CellsAhead& ahead) {
+  if (open_.empty()) {
+    move_on(marked.list, rules, steps, ahead);
+  } else {
+    CellList behind;
+    for (std::size_t y = 0; y < side; ++y) behind.add(y, marked.set.row(y) & ~open_.row(y));
+    move_on(behind, rules, steps, ahead);
   }
-  move_on(cells.data(), count, rules, steps);
+  open_.add(marked.set);
+  unwritten_.add(marked.set);
 }
 
 /// Cells take the points of their last scan in and go on to the time of the open one.
-void FusionTile::move_on(const std::uint16_t* cells, std::size_t count, const FusionRules& rules,
-                         HeightSteps& steps) {
-  constexpr std::size_t ahead = 2 * CellBatch::size;
-  for (std::size_t i = 0; i < std::min(count, ahead); ++i) fetch(cells_[cells[i]]);
-  for (std::size_t first = 0; first < count; first += CellBatch::size) {
+void FusionTile::move_on(const CellList& list, const FusionRules& rules, HeightSteps& steps,
+                         CellsAhead& ahead) {
+  for (std::size_t first = 0; first < list.count; first += CellBatch::size) {
     CellBatch batch;
     CellSteps in;
-    batch.count = std::min(CellBatch::size, count - first);
+    batch.count = std::min(CellBatch::size, list.count - first);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      if (first + i + ahead < count) fetch(cells_[cells[first + i + ahead]]);
-      FilterCell& cell = cells_[cells[first + i]];
+      ahead.fetch_one();
+      FilterCell& cell = cells_[list.cells[first + i]];
       batch.cells[i] = &cell;
       in.steps[i] = &steps.after(time_ - cell.time);
       in.still_share[i] = cell.time < still_since_ ? 0.0F : 1.0F;
@@ -142,12 +146,14 @@ void FusionTile::move_on(const std::uint16_t* cells, std::size_t count, const Fu
   }
 }
 
-std::size_t FusionTile::add(const Sample* samples, std::size_t count, const FusionRules& rules) {
+std::size_t FusionTile::add(const Sample* samples, std::size_t count, const FusionRules& rules,
+                            CellsAhead& ahead) {
   const std::size_t set_aside = set_aside_.size();
   const double squared_gate = rules.gate.squared_gate;
   const double gate_scale = squared_gate * rules.gate.weight_scale;
   const double squared_relief = rules.gate.relief * rules.gate.relief;
   for (std::size_t i = 0; i < count; ++i) {
+    ahead.fetch_one();
     const Sample sample = samples[i];
     FilterCell& cell = cells_[sample.cell()];
     const auto steps = static_cast<double>(std::int64_t{sample.height()} - cell.height);
@@ -316,10 +322,11 @@ void FusionTile::forget_cell(std::size_t cell) {
 void FusionTile::restart_clock(std::uint32_t end, const FusionRules& rules, HeightSteps& steps) {
   open(scan_ + 1, end, rules);
   time_ = end;
-  std::array<std::uint16_t, cell_count> all;
-  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  CellList all;
+  for (std::size_t y = 0; y < side; ++y) all.add(y, ~CellSet::Row{0});
+  CellsAhead none;
   // Written estimates hold for the last points, which are gone from the cells thereafter.
-  move_on(all.data(), all.size(), rules, steps);
+  move_on(all, rules, steps, none);
   for (FilterCell& cell : cells_) cell.time = 0;
   gathering_since_ = 0;
   still_since_ = 0;

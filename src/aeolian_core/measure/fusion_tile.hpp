@@ -29,10 +29,14 @@ class CellSet {
 
   bool has(std::size_t cell) const { return (rows_[cell / side] >> (cell % side) & 1U) != 0; }
   void add(std::size_t cell) { rows_[cell / side] |= Row{1} << (cell % side); }
+  void add(const CellSet& other) {
+    for (std::size_t y = 0; y < side; ++y) rows_[y] |= other.rows_[y];
+  }
   void remove(std::size_t cell) { rows_[cell / side] &= ~(Row{1} << (cell % side)); }
   void clear() { rows_.fill(0); }
   void fill() { rows_.fill(~Row{0}); }
   Row& row(std::size_t y) { return rows_[y]; }
+  Row row(std::size_t y) const { return rows_[y]; }
   bool empty() const {
     Row any = 0;
     for (const Row row : rows_) any |= row;
@@ -53,17 +57,61 @@ struct TileLayers {
   }
 };
 
+/// The cells of a set in a row.
+struct CellList {
+  std::array<std::uint16_t, CellSet::side * CellSet::side> cells;
+  std::size_t count = 0;
+
+  /// Adds those of a set's row `y`.
+  void add(std::size_t y, CellSet::Row row) {
+    for (; row != 0; row &= row - 1)
+      cells[count++] =
+          static_cast<std::uint16_t>(y * CellSet::side + static_cast<std::size_t>(__builtin_ctz(row)));
+  }
+};
+
+struct MarkedCells {
+  CellSet set;
+  CellList list;
+};
+
 /// Marks the cells in which samples lie, quickly.
 class CellMarks {
  public:
   void add(const Sample* samples, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) marks_[samples[i].cell()] = 1;
   }
-  /// The marked cells of a row, which are unmarked.
-  CellSet::Row take_row(std::size_t y);
+  /// The marked cells, which are unmarked.
+  void take(MarkedCells& marked);
 
  private:
+  CellSet::Row take_row(std::size_t y);
+
   std::array<std::uint8_t, CellSet::side * CellSet::side> marks_{};
+};
+
+/// Cells that the processor fetches, a few at a time, while another tile is worked on: memory is what a scan
+/// waits for.
+class CellsAhead {
+ public:
+  CellsAhead() = default;
+  /// Both must outlive this.
+  CellsAhead(const FilterCell* cells, const CellList& list)
+      : cells_(cells), next_(list.cells.data()), end_(next_ + list.count) {}
+
+  void fetch_one() {
+    if (next_ != end_) __builtin_prefetch(&cells_[*next_++], 1, second_cache);
+  }
+  void fetch_rest() {
+    while (next_ != end_) fetch_one();
+  }
+
+ private:
+  static constexpr int second_cache = 2;  ///< the first has no room for two tiles
+
+  const FilterCell* cells_ = nullptr;
+  const std::uint16_t* next_ = nullptr;
+  const std::uint16_t* end_ = nullptr;
 };
 
 /// Up to 32 x 32 cells of the live height map.
@@ -79,14 +127,15 @@ class FusionTile {
   static constexpr std::size_t side = CellSet::side;
   static constexpr std::size_t cell_count = side * side;
 
-  /// Lets the processor fetch what the next scan needs first.
-  void prefetch() const;
+  /// Lets the processor fetch what the next scan needs first; its cells, of which `list` must live on,
+  /// follow.
+  CellsAhead prefetch(const CellList& list) const;
   /// Makes `scan` (at `time` [ms]) the open one, after the one before has had its say.
   void open(std::uint32_t scan, std::uint32_t time, const FusionRules& rules);
-  /// Lets the marked cells, which are unmarked, reach the open scan.
-  void reach(CellMarks& marks, const FusionRules& rules, HeightSteps& steps);
+  /// Lets cells reach the open scan.
+  void reach(const MarkedCells& marked, const FusionRules& rules, HeightSteps& steps, CellsAhead& ahead);
   /// Adds samples, whose cells have reached the open scan; how many agree with what is known.
-  std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules);
+  std::size_t add(const Sample* samples, std::size_t count, const FusionRules& rules, CellsAhead& ahead);
   /// What became of the points that were set aside in the open scan.
   struct Verdicts {
     std::size_t new_cells = 0;      ///< that begin, or begin anew
@@ -117,7 +166,7 @@ class FusionTile {
   bool known(std::size_t cell) const { return cells_[cell].height_variance > 0; }
   /// Whether the still filter has run, and speaks, since the bed came to rest.
   bool rests(std::size_t cell) const { return still_ && cells_[cell].time >= still_since_; }
-  void move_on(const std::uint16_t* cells, std::size_t count, const FusionRules& rules, HeightSteps& steps);
+  void move_on(const CellList& list, const FusionRules& rules, HeightSteps& steps, CellsAhead& ahead);
   void judge_motion(std::uint32_t time);
   void take_set_aside(const FusionRules& rules);
   void forget_refusals();
