@@ -18,9 +18,9 @@ constexpr int strip = 32;  ///< stations that are relaxed by themselves before w
 AEOLIAN_INLINE double size(double x) { return x < 0 ? -x : x; }
 
 /// Lowers and raises the limits of heights and floors by those of some rows. Whether all are open.
-AEOLIAN_KERNEL bool lies_deep(std::ptrdiff_t count, const double* __restrict h,
-                              const double* __restrict floor, const double* __restrict open, double& lowest,
-                              double& highest_floor) {
+AEOLIAN_WIDE_KERNEL bool lies_deep(std::ptrdiff_t count, const double* __restrict h,
+                                   const double* __restrict floor, const double* __restrict open,
+                                   double& lowest, double& highest_floor) {
   constexpr int lanes = 8;
   double low[lanes], high[lanes], least_open[lanes];
   std::fill_n(low, lanes, lowest);
@@ -39,8 +39,8 @@ AEOLIAN_KERNEL bool lies_deep(std::ptrdiff_t count, const double* __restrict h,
 }
 
 /// Exchange between h[i] and other[i].
-AEOLIAN_KERNEL void relax_pairs(std::ptrdiff_t count, double straight, double* __restrict h,
-                                double* __restrict other, double* __restrict moved) {
+AEOLIAN_WIDE_KERNEL void relax_pairs(std::ptrdiff_t count, double straight, double* __restrict h,
+                                     double* __restrict other, double* __restrict moved) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double amount = slide(h[i] - other[i], straight, 0.5);
     h[i] -= amount;
@@ -50,8 +50,8 @@ AEOLIAN_KERNEL void relax_pairs(std::ptrdiff_t count, double straight, double* _
 }
 
 /// Exchange between neighbours of one row, all at once, hence only a third.
-AEOLIAN_KERNEL void relax_row(std::ptrdiff_t pairs, double straight, double* __restrict h,
-                              double* __restrict moved) {
+AEOLIAN_WIDE_KERNEL void relax_row(std::ptrdiff_t pairs, double straight, double* __restrict h,
+                                   double* __restrict moved) {
   double amount[patch_rows];
   for (std::ptrdiff_t i = 0; i < pairs; ++i) {
     amount[i] = slide(h[i] - h[i + 1], straight, 1.0 / 3);

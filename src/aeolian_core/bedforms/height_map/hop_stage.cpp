@@ -123,31 +123,31 @@ AEOLIAN_INLINE void sweep_in_turn(const HopLaw& law, int now, std::ptrdiff_t beg
     sweep_lines<angles, 1>(law, begin, end, m, at, bed);
 }
 
-AEOLIAN_KERNEL void sweep_sand(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
-                               Memory& m, const Stations& at) {
+AEOLIAN_WIDE_KERNEL void sweep_sand(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                    Memory& m, const Stations& at) {
   sweep_in_turn<1>(law, now, begin, end, m, at, DeepSand{});
 }
 
-AEOLIAN_KERNEL void sweep_sand_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
-                                         Memory& m, const Stations& at) {
+AEOLIAN_WIDE_KERNEL void sweep_sand_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin,
+                                              std::ptrdiff_t end, Memory& m, const Stations& at) {
   sweep_in_turn<ImpactAngles::most>(law, now, begin, end, m, at, DeepSand{});
 }
 
-AEOLIAN_KERNEL void sweep_ground(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
-                                 Memory& m, const Stations& at, const Ground& ground) {
+AEOLIAN_WIDE_KERNEL void sweep_ground(const HopLaw& law, int now, std::ptrdiff_t begin, std::ptrdiff_t end,
+                                      Memory& m, const Stations& at, const Ground& ground) {
   sweep_in_turn<1>(law, now, begin, end, m, at,
                    HardGroundLines{ground.movable_1, ground.open_1, ground.open_2});
 }
 
-AEOLIAN_KERNEL void sweep_ground_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin,
-                                           std::ptrdiff_t end, Memory& m, const Stations& at,
-                                           const Ground& ground) {
+AEOLIAN_WIDE_KERNEL void sweep_ground_by_angles(const HopLaw& law, int now, std::ptrdiff_t begin,
+                                                std::ptrdiff_t end, Memory& m, const Stations& at,
+                                                const Ground& ground) {
   sweep_in_turn<ImpactAngles::most>(law, now, begin, end, m, at,
                                     HardGroundLines{ground.movable_1, ground.open_1, ground.open_2});
 }
 
-AEOLIAN_KERNEL void lower_envelope(std::ptrdiff_t count, double drop, const double* __restrict h,
-                                   double* __restrict envelope) {
+AEOLIAN_WIDE_KERNEL void lower_envelope(std::ptrdiff_t count, double drop, const double* __restrict h,
+                                        double* __restrict envelope) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double fallen = envelope[i] - drop;
     envelope[i] = fallen > h[i] ? fallen : h[i];

@@ -12,8 +12,8 @@ namespace aeolian {
 namespace {
 
 /// Widens the range [low, high] by a station's heights above the dune.
-AEOLIAN_KERNEL void relief(std::ptrdiff_t count, const double* __restrict bed, const double* __restrict dune,
-                           double& low, double& high) {
+AEOLIAN_WIDE_KERNEL void relief(std::ptrdiff_t count, const double* __restrict bed,
+                                const double* __restrict dune, double& low, double& high) {
   constexpr int lanes = 8;
   double least[lanes];
   double most[lanes];

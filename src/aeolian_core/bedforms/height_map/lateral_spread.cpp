@@ -61,16 +61,17 @@ AEOLIAN_INLINE void with_taps(int taps, const Work& work) {
   work(std::integral_constant<int, most>());
 }
 
-AEOLIAN_KERNEL void moments(int taps, std::ptrdiff_t count, const double* weight, const double* __restrict v,
-                            double* __restrict sum, double* __restrict first, double* __restrict second) {
+AEOLIAN_WIDE_KERNEL void moments(int taps, std::ptrdiff_t count, const double* weight,
+                                 const double* __restrict v, double* __restrict sum, double* __restrict first,
+                                 double* __restrict second) {
   with_taps<most_taps>(
       taps, [=](auto n) __attribute__((always_inline)) {
         sum_taps<decltype(n)::value>(count, weight, v, sum, first, second);
       });
 }
 
-AEOLIAN_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* weight,
-                                const double* __restrict v, double* __restrict sum) {
+AEOLIAN_WIDE_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* weight,
+                                     const double* __restrict v, double* __restrict sum) {
   with_taps<most_taps>(
       taps, [=](auto n) __attribute__((always_inline)) {
         sum_taps_straight<decltype(n)::value>(count, weight, v, sum);
@@ -78,26 +79,26 @@ AEOLIAN_KERNEL void mean_across(int taps, std::ptrdiff_t count, const double* we
 }
 
 /// The sum of the taps where some cells are closed: each pair of cells exchanges by itself.
-AEOLIAN_KERNEL void exchange_across(int taps, std::ptrdiff_t count, const double* weight,
-                                    const double* __restrict v, const double* __restrict open,
-                                    double* __restrict sum) {
+AEOLIAN_WIDE_KERNEL void exchange_across(int taps, std::ptrdiff_t count, const double* weight,
+                                         const double* __restrict v, const double* __restrict open,
+                                         double* __restrict sum) {
   for (std::ptrdiff_t i = 0; i < count; ++i) sum[i] = v[i];
   for (int m = 1; m <= taps; ++m)
     for (std::ptrdiff_t i = 0; i < count; ++i)
       sum[i] += weight[m] * open[i] * (open[i + m] * (v[i + m] - v[i]) + open[i - m] * (v[i - m] - v[i]));
 }
 
-AEOLIAN_KERNEL void close_faces(std::ptrdiff_t count, const double* __restrict open,
-                                const double* __restrict next_open, double* __restrict flux) {
+AEOLIAN_WIDE_KERNEL void close_faces(std::ptrdiff_t count, const double* __restrict open,
+                                     const double* __restrict next_open, double* __restrict flux) {
   for (std::ptrdiff_t i = 0; i < count; ++i) flux[i] *= open[i] * next_open[i];
 }
 
 /// Moves the taps m rows away by m times the drift upwind: the flux between two stations that this is, and no
 /// more of it than half of what is there.
-AEOLIAN_KERNEL void flux_between(std::ptrdiff_t count, double drift, const double* __restrict sum,
-                                 const double* __restrict next_sum, const double* __restrict first,
-                                 const double* __restrict next_first, const double* __restrict second,
-                                 const double* __restrict next_second, double* __restrict flux) {
+AEOLIAN_WIDE_KERNEL void flux_between(std::ptrdiff_t count, double drift, const double* __restrict sum,
+                                      const double* __restrict next_sum, const double* __restrict first,
+                                      const double* __restrict next_first, const double* __restrict second,
+                                      const double* __restrict next_second, double* __restrict flux) {
   const double along = 0.5 * drift;
   const double bend = 0.5 * drift * drift;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -109,8 +110,9 @@ AEOLIAN_KERNEL void flux_between(std::ptrdiff_t count, double drift, const doubl
   }
 }
 
-AEOLIAN_KERNEL void settle(std::ptrdiff_t count, const double* __restrict sum, const double* __restrict in,
-                           const double* __restrict out, double* __restrict result) {
+AEOLIAN_WIDE_KERNEL void settle(std::ptrdiff_t count, const double* __restrict sum,
+                                const double* __restrict in, const double* __restrict out,
+                                double* __restrict result) {
   for (std::ptrdiff_t i = 0; i < count; ++i) result[i] = sum[i] + (in[i] - out[i]);
 }
 

@@ -14,14 +14,14 @@ namespace {
 constexpr int stations_at_once = 32;
 
 /// Rows from the lines on both sides of each.
-AEOLIAN_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __restrict lines,
-                            double* __restrict rows) {
+AEOLIAN_WIDE_KERNEL void scatter(std::ptrdiff_t count, double upper, const double* __restrict lines,
+                                 double* __restrict rows) {
   for (std::ptrdiff_t i = 0; i < count; ++i) rows[i] = lines[i + 1] + upper * (lines[i] - lines[i + 1]);
 }
 
-AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, const double* __restrict erosion,
-                           const double* __restrict deposition, double* __restrict bed,
-                           double* __restrict activity) {
+AEOLIAN_WIDE_KERNEL void update(std::ptrdiff_t count, double depth, double upper,
+                                const double* __restrict erosion, const double* __restrict deposition,
+                                double* __restrict bed, double* __restrict activity) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double lost = erosion[i + 1] + upper * (erosion[i] - erosion[i + 1]);
     const double gained = deposition[i];
@@ -32,7 +32,7 @@ AEOLIAN_KERNEL void update(std::ptrdiff_t count, double depth, double upper, con
 
 constexpr int lanes = 8;
 
-AEOLIAN_KERNEL double sum(std::ptrdiff_t count, const double* __restrict values) {
+AEOLIAN_WIDE_KERNEL double sum(std::ptrdiff_t count, const double* __restrict values) {
   double sums[lanes] = {};
   const std::ptrdiff_t whole = count / lanes * lanes;
   for (std::ptrdiff_t i = 0; i < whole; i += lanes)
@@ -43,7 +43,7 @@ AEOLIAN_KERNEL double sum(std::ptrdiff_t count, const double* __restrict values)
   return total;
 }
 
-AEOLIAN_KERNEL double largest(std::ptrdiff_t count, const double* __restrict values) {
+AEOLIAN_WIDE_KERNEL double largest(std::ptrdiff_t count, const double* __restrict values) {
   double most[lanes] = {};
   const std::ptrdiff_t whole = count / lanes * lanes;
   for (std::ptrdiff_t i = 0; i < whole; i += lanes)

@@ -15,31 +15,31 @@ constexpr int means = 5;  ///< running means that make a Gaussian; fewer let sho
 constexpr int rows_at_once = 64;
 constexpr double most_decay = 0.5;  ///< of any wave in one application
 
-AEOLIAN_KERNEL void above(std::ptrdiff_t count, const double* __restrict bed, const double* __restrict dune,
-                          double* __restrict height) {
+AEOLIAN_WIDE_KERNEL void above(std::ptrdiff_t count, const double* __restrict bed,
+                               const double* __restrict dune, double* __restrict height) {
   for (std::ptrdiff_t i = 0; i < count; ++i) height[i] = bed[i] - dune[i];
 }
 
-AEOLIAN_KERNEL void slide(std::ptrdiff_t count, const double* __restrict enters,
-                          const double* __restrict leaves, double* __restrict sum) {
+AEOLIAN_WIDE_KERNEL void slide(std::ptrdiff_t count, const double* __restrict enters,
+                               const double* __restrict leaves, double* __restrict sum) {
   for (std::ptrdiff_t i = 0; i < count; ++i) sum[i] += enters[i] - leaves[i];
 }
 
-AEOLIAN_KERNEL void scaled(std::ptrdiff_t count, double factor, const double* __restrict sum,
-                           double* __restrict mean) {
+AEOLIAN_WIDE_KERNEL void scaled(std::ptrdiff_t count, double factor, const double* __restrict sum,
+                                double* __restrict mean) {
   for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = factor * sum[i];
 }
 
-AEOLIAN_KERNEL void exchange(std::ptrdiff_t count, double gain, const double* __restrict here,
-                             const double* __restrict other, double* __restrict flow) {
+AEOLIAN_WIDE_KERNEL void exchange(std::ptrdiff_t count, double gain, const double* __restrict here,
+                                  const double* __restrict other, double* __restrict flow) {
   for (std::ptrdiff_t i = 0; i < count; ++i) flow[i] = gain * (here[i] - other[i]);
 }
 
 /// Of a flow out of a cell, at most a quarter of what lies there; the flow back is bound by the other cell.
-AEOLIAN_KERNEL void limit(std::ptrdiff_t count, const double* __restrict bed, const double* __restrict floor,
-                          const double* __restrict open, const double* __restrict other_bed,
-                          const double* __restrict other_floor, const double* __restrict other_open,
-                          double* __restrict flow) {
+AEOLIAN_WIDE_KERNEL void limit(std::ptrdiff_t count, const double* __restrict bed,
+                               const double* __restrict floor, const double* __restrict open,
+                               const double* __restrict other_bed, const double* __restrict other_floor,
+                               const double* __restrict other_open, double* __restrict flow) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double mine = 0.25 * (bed[i] - floor[i]);
     const double others = -0.25 * (other_bed[i] - other_floor[i]);

@@ -7,8 +7,8 @@ namespace {
 
 AEOLIAN_INLINE double size(double x) { return x < 0 ? -x : x; }
 
-AEOLIAN_KERNEL bool is_any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,
-                                 const double* __restrict h, const double* __restrict behind) {
+AEOLIAN_WIDE_KERNEL bool is_any_steep(std::ptrdiff_t count, std::ptrdiff_t ahead, double straight,
+                                      const double* __restrict h, const double* __restrict behind) {
   const double along = straight * (1 + repose_slack);
   const double oblique = along * 1.4142135623730951;
   std::int64_t any = 0;

@@ -21,8 +21,8 @@ struct Rows {
   const double* behind;
 };
 
-AEOLIAN_KERNEL double stiffen_rows(std::ptrdiff_t count, double per_height, Rows bed, Rows dune,
-                                   double* __restrict activity) {
+AEOLIAN_WIDE_KERNEL double stiffen_rows(std::ptrdiff_t count, double per_height, Rows bed, Rows dune,
+                                        double* __restrict activity) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double along = (bed.behind[i] - bed.before[i]) - (dune.behind[i] - dune.before[i]);
     const double across = (bed.here[i + 1] - bed.here[i - 1]) - (dune.here[i + 1] - dune.here[i - 1]);

@@ -26,9 +26,9 @@ struct Rows {
 };
 
 /// Marks what is open and deeper than `least`.
-AEOLIAN_KERNEL void mark_deep(std::ptrdiff_t count, double least, const double* __restrict h,
-                              const double* __restrict floor, const double* __restrict open,
-                              double* __restrict deep) {
+AEOLIAN_WIDE_KERNEL void mark_deep(std::ptrdiff_t count, double least, const double* __restrict h,
+                                   const double* __restrict floor, const double* __restrict open,
+                                   double* __restrict deep) {
   for (std::ptrdiff_t i = 0; i < count; ++i) deep[i] = (h[i] - floor[i]) * open[i] > least ? 1 : 0;
 }
 
@@ -66,7 +66,7 @@ AEOLIAN_INLINE ThinFaces thin_faces(const Thin& t, std::ptrdiff_t i) {
 }
 
 /// The strongest mean activity of the faces around a cell, of which only the thin ones count.
-AEOLIAN_KERNEL double strongest_thin(std::ptrdiff_t count, Thin thin) {
+AEOLIAN_WIDE_KERNEL double strongest_thin(std::ptrdiff_t count, Thin thin) {
   double lanes[8] = {};
   for (std::ptrdiff_t begin = 0; begin < count; begin += 8)
     for (std::ptrdiff_t i = begin; i < std::min(begin + 8, count); ++i) {
@@ -90,8 +90,8 @@ AEOLIAN_INLINE double inflow(double gain, double face, double h, double h_other,
   return face > 0 ? (flow < upper ? flow : upper) : 0;
 }
 
-AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows height, Rows floors, Thin thin,
-                                       double* __restrict next) {
+AEOLIAN_WIDE_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows height, Rows floors,
+                                            Thin thin, double* __restrict next) {
   const double* const h = height.here;
   const double* const f = floors.here;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -105,15 +105,15 @@ AEOLIAN_KERNEL void exchange_on_ground(std::ptrdiff_t count, double gain, Rows h
 }
 
 /// Whether any deep cell has been taken below its floor.
-AEOLIAN_KERNEL bool any_below(std::ptrdiff_t count, const double* __restrict next,
-                              const double* __restrict floor, const double* __restrict deep) {
+AEOLIAN_WIDE_KERNEL bool any_below(std::ptrdiff_t count, const double* __restrict next,
+                                   const double* __restrict floor, const double* __restrict deep) {
   std::int64_t any = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i) any |= (next[i] < floor[i]) & (deep[i] > 0);
   return any != 0;
 }
 
-AEOLIAN_KERNEL void take_deep(std::ptrdiff_t count, const double* __restrict next,
-                              const double* __restrict deep, double* __restrict height) {
+AEOLIAN_WIDE_KERNEL void take_deep(std::ptrdiff_t count, const double* __restrict next,
+                                   const double* __restrict deep, double* __restrict height) {
   for (std::ptrdiff_t i = 0; i < count; ++i) height[i] = deep[i] > 0 ? next[i] : height[i];
 }
 

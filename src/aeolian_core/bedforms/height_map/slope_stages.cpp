@@ -65,33 +65,33 @@ AEOLIAN_INLINE void go_on_with(std::ptrdiff_t count, const SlopeStages::Weights&
   }
 }
 
-AEOLIAN_KERNEL void begin_stages(std::ptrdiff_t count, double gain, Rows height, ByActivity activity,
-                                 double* first, double* next) {
+AEOLIAN_WIDE_KERNEL void begin_stages(std::ptrdiff_t count, double gain, Rows height, ByActivity activity,
+                                      double* first, double* next) {
   begin_with(count, gain, height, activity, first, next);
 }
 
-AEOLIAN_KERNEL void begin_stages_by_faces(std::ptrdiff_t count, double gain, Rows height, ByFaces faces,
-                                          double* first, double* next) {
+AEOLIAN_WIDE_KERNEL void begin_stages_by_faces(std::ptrdiff_t count, double gain, Rows height, ByFaces faces,
+                                               double* first, double* next) {
   begin_with(count, gain, height, faces, first, next);
 }
 
-AEOLIAN_KERNEL void add_stage(std::ptrdiff_t count, const SlopeStages::Weights& c, Rows height,
-                              const double* before_last, ByActivity activity, const double* start,
-                              const double* first, double* next) {
+AEOLIAN_WIDE_KERNEL void add_stage(std::ptrdiff_t count, const SlopeStages::Weights& c, Rows height,
+                                   const double* before_last, ByActivity activity, const double* start,
+                                   const double* first, double* next) {
   go_on_with(count, c, height, before_last, activity, start, first, next);
 }
 
-AEOLIAN_KERNEL void add_stage_by_faces(std::ptrdiff_t count, const SlopeStages::Weights& c, Rows height,
-                                       const double* before_last, ByFaces faces, const double* start,
-                                       const double* first, double* next) {
+AEOLIAN_WIDE_KERNEL void add_stage_by_faces(std::ptrdiff_t count, const SlopeStages::Weights& c, Rows height,
+                                            const double* before_last, ByFaces faces, const double* start,
+                                            const double* first, double* next) {
   go_on_with(count, c, height, before_last, faces, start, first, next);
 }
 
 /// Faces between deep cells.
-AEOLIAN_KERNEL void face_activities(std::ptrdiff_t count, const double* __restrict a,
-                                    const double* __restrict a_behind, const double* __restrict deep,
-                                    const double* __restrict deep_behind, double* __restrict behind,
-                                    double* __restrict beside) {
+AEOLIAN_WIDE_KERNEL void face_activities(std::ptrdiff_t count, const double* __restrict a,
+                                         const double* __restrict a_behind, const double* __restrict deep,
+                                         const double* __restrict deep_behind, double* __restrict behind,
+                                         double* __restrict beside) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     behind[i] = (a[i] + a_behind[i]) * (deep[i] * deep_behind[i]);
     beside[i] = (a[i] + a[i + 1]) * (deep[i] * deep[i + 1]);

@@ -19,8 +19,8 @@ constexpr int settle = stage_stations + 4;
 
 constexpr std::array<double, stages> stage_weight{1.0 / 6, 1.0 / 6, 2.0 / 3};
 
-AEOLIAN_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __restrict bed,
-                           const double* __restrict dune, double* __restrict height) {
+AEOLIAN_WIDE_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __restrict bed,
+                                const double* __restrict dune, double* __restrict height) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double low = bed[i - 1] - dune[i - 1];
     const double high = bed[i] - dune[i];
@@ -29,17 +29,17 @@ AEOLIAN_KERNEL void gather(std::ptrdiff_t count, double upper, const double* __r
 }
 
 /// Where lines lie on rows.
-AEOLIAN_KERNEL void gather_row(std::ptrdiff_t count, const double* __restrict bed,
-                               const double* __restrict dune, double* __restrict height) {
+AEOLIAN_WIDE_KERNEL void gather_row(std::ptrdiff_t count, const double* __restrict bed,
+                                    const double* __restrict dune, double* __restrict height) {
   for (std::ptrdiff_t i = 0; i < count; ++i) height[i] = bed[i - 1] - dune[i - 1];
 }
 
 /// What can be eroded where each line lies: no more than what lies on either of its rows. `high` is 0 where
 /// lines lie on rows.
-AEOLIAN_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, double per_depth,
-                                  const double* __restrict bed, const double* __restrict floor,
-                                  const double* __restrict open, double* __restrict movable,
-                                  double* __restrict passable) {
+AEOLIAN_WIDE_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, double per_depth,
+                                       const double* __restrict bed, const double* __restrict floor,
+                                       const double* __restrict open, double* __restrict movable,
+                                       double* __restrict passable) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const double low_sand = (bed[i - 1] - floor[i - 1]) * open[i - 1];
     const double high_sand = (bed[i - 1 + high] - floor[i - 1 + high]) * open[i - 1 + high];
@@ -50,23 +50,23 @@ AEOLIAN_KERNEL void gather_ground(std::ptrdiff_t count, std::ptrdiff_t high, dou
 }
 
 /// Heights for the next stage: after a step at the rate of the first, or half a step at the mean of two.
-AEOLIAN_KERNEL void predict(std::ptrdiff_t count, double depth, const double* __restrict height,
-                            const double* __restrict erosion, const double* __restrict deposition,
-                            double* __restrict next) {
+AEOLIAN_WIDE_KERNEL void predict(std::ptrdiff_t count, double depth, const double* __restrict height,
+                                 const double* __restrict erosion, const double* __restrict deposition,
+                                 double* __restrict next) {
   for (std::ptrdiff_t i = 0; i < count; ++i) next[i] = height[i] + depth * (deposition[i] - erosion[i]);
 }
 
-AEOLIAN_KERNEL void predict_half(std::ptrdiff_t count, double depth, const double* __restrict height,
-                                 const double* __restrict erosion, const double* __restrict deposition,
-                                 const double* __restrict erosion_1, const double* __restrict deposition_1,
-                                 double* __restrict next) {
+AEOLIAN_WIDE_KERNEL void predict_half(std::ptrdiff_t count, double depth, const double* __restrict height,
+                                      const double* __restrict erosion, const double* __restrict deposition,
+                                      const double* __restrict erosion_1,
+                                      const double* __restrict deposition_1, double* __restrict next) {
   const double quarter = 0.25 * depth;
   for (std::ptrdiff_t i = 0; i < count; ++i)
     next[i] = height[i] + quarter * ((deposition[i] - erosion[i]) + (deposition_1[i] - erosion_1[i]));
 }
 
-AEOLIAN_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, const double* __restrict b,
-                            const double* __restrict c, double* __restrict mean) {
+AEOLIAN_WIDE_KERNEL void average(std::ptrdiff_t count, const double* __restrict a, const double* __restrict b,
+                                 const double* __restrict c, double* __restrict mean) {
   for (std::ptrdiff_t i = 0; i < count; ++i) mean[i] = (1.0 / 6) * (a[i] + b[i] + 4 * c[i]);
 }
 
