@@ -20,6 +20,15 @@ struct LargePages {
   explicit LargePages(const LargePages<U>&) {}
   T* allocate(std::size_t count) { return static_cast<T*>(take_pages(count * sizeof(T))); }
   void deallocate(T* memory, std::size_t count) { give_pages(memory, count * sizeof(T)); }
+  /// Values that nothing is said of are not set.
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
   friend bool operator==(const LargePages&, const LargePages&) { return true; }
   friend bool operator!=(const LargePages&, const LargePages&) { return false; }
 };
@@ -33,7 +42,16 @@ class FrameField {
 
   FrameField() = default;
   FrameField(int stations, int rows)
-      : rows_(rows), stride_(stride_of(rows)), values_(static_cast<std::size_t>(stations) * stride_) {}
+      : rows_(rows), stride_(stride_of(rows)), values_(static_cast<std::size_t>(stations) * stride_, 0.0) {}
+
+  /// The same, of values that are yet to be set.
+  static FrameField unset(int stations, int rows) {
+    FrameField field;
+    field.rows_ = rows;
+    field.stride_ = stride_of(rows);
+    field.values_.resize(static_cast<std::size_t>(stations) * field.stride_);
+    return field;
+  }
 
   /// Row 0 of a station.
   double* at(int station) { return values_.data() + static_cast<std::size_t>(station) * stride_ + pad; }

@@ -46,8 +46,8 @@ double blur_along(const WindFrame& frame) {
 ImpactSweep::ImpactSweep(const WindFrame& frame, const ImpactAngles& angles, double hop, double shortening)
     : frame_(frame),
       law_(frame.step(), angles, hop, shortening, blur_along(frame)),
-      erosion_(frame.stations(), frame.rows()),
-      deposition_(frame.stations(), frame.rows()),
+      erosion_(FrameField::unset(frame.stations(), frame.rows())),
+      deposition_(FrameField::unset(frame.stations(), frame.rows())),
       seam_in_(static_cast<std::size_t>(frame.rows()) + 1),
       seam_out_(static_cast<std::size_t>(frame.rows()) + 1) {}
 

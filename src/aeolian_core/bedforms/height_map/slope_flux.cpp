@@ -120,7 +120,7 @@ AEOLIAN_WIDE_KERNEL void take_deep(std::ptrdiff_t count, const double* __restric
 }  // namespace
 
 SlopeFlux::SlopeFlux(const WindFrame& frame, double cell, double scale)
-    : frame_(frame), cell_(cell), scale_(scale), next_(frame.stations(), frame.rows()) {}
+    : frame_(frame), cell_(cell), scale_(scale), next_(FrameField::unset(frame.stations(), frame.rows())) {}
 
 /// Calls work(begin, end) for blocks of stations, in parallel.
 template <class Work>

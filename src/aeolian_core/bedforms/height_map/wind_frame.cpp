@@ -103,7 +103,7 @@ void WindFrame::for_cells(Work&& work) const {
 }
 
 void WindFrame::enter(const std::vector<double>& grid, FrameField& frame) const {
-  frame = FrameField(stations_, rows_);
+  frame = FrameField::unset(stations_, rows_);
   for_cells([&](int station, int row, std::size_t cell) { frame.at(station)[row] = grid[cell]; });
   for (int i = 0; i < stations_; ++i) frame.fill_pads(i, periodic_);
 }
