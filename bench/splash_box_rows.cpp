@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "splash_rows.hpp"
 
 #include "aeolian_core/grains/impacts/impact_statistics.hpp"
 #include "aeolian_core/grains/impacts/impact_study.hpp"
+#include "aeolian_twin/splash/study_journal.hpp"
 
 namespace aeolian {
 namespace {
@@ -18,14 +20,15 @@ struct Series {
   MeanValue number, speed, rebound;
 };
 
-Series fired(const std::vector<Bed<2>>& beds, int impacts, const ImpactRules& rules) {
-  ImpactSeries settings;
-  settings.impacts = impacts;
-  settings.seed = 5;
-  const auto begin = std::chrono::steady_clock::now();
-  const auto outcomes = fire_series<2>(beds, settings, rules);
+ImpactSeries series_of(int impacts) {
+  ImpactSeries series;
+  series.impacts = impacts;
+  series.seed = 5;
+  return series;
+}
+
+Series numbers_of(const std::vector<ImpactOutcome>& outcomes, const std::vector<Bed<2>>& beds) {
   Series series;
-  series.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const ImpactOutcome& o : outcomes) {
     series.numbers.push_back(static_cast<double>(o.ejecta.size()));
     if (o.rebound) series.rebounds.push_back(o.rebound->velocity.norm() / o.shot.speed);
@@ -70,6 +73,22 @@ void compare(AccuracyTable& table, const std::string& what, const Series& refere
                   distance(reference.rebounds, other.rebounds));
 }
 
+Series fired(const std::vector<Bed<2>>& beds, int impacts, const ImpactRules& rules) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto outcomes = fire_series<2>(beds, series_of(impacts), rules);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  Series series = numbers_of(outcomes, beds);
+  series.seconds = seconds;
+  return series;
+}
+
+Series noted(const std::string& folder, const std::vector<Bed<2>>& beds, int impacts) {
+  std::filesystem::create_directories(folder);
+  StudyJournal journal(folder, fmt::format("{} impacts on {} beds\n", impacts, beds.size()), false);
+  const auto add = [&](const ImpactOutcome& outcome, int) { journal.add(0, outcome); };
+  return numbers_of(fire_series<2>(beds, series_of(impacts), {}, add, nullptr, journal.done(0)), beds);
+}
+
 std::vector<Bed<2>> beds_of(int grains, double length, int count) {
   BedRecipe recipe;
   recipe.grains = grains;
@@ -82,13 +101,30 @@ std::vector<Bed<2>> beds_of(int grains, double length, int count) {
 
 }  // namespace
 
-void box_rows(AccuracyTable& table) {
-  constexpr int impacts = 32;
-  table.section("Simulated impacts: a larger box",
-                "CASE A on level loose beds (trap T12). Tolerance: three standard errors of the difference.");
-  const Series reference = fired(beds_of(384, 0.673, 4), impacts, {});
-  const Series wide = fired(beds_of(4 * 384, 2 * 0.673, 2), impacts, {});
-  compare(table, "a box twice as wide and deep", reference, wide);
+void box_rows(AccuracyTable& table, const std::string& folder) {
+  constexpr int impacts = 96;
+  constexpr int beds = 16;
+  table.section(
+      "Simulated impacts: a larger box",
+      fmt::format("CASE A on level loose beds (trap T12), {} impacts on {} beds each. Tolerance: three "
+                  "standard errors of the difference.",
+                  impacts, beds));
+  const auto small = beds_of(384, 0.673, beds);
+  const auto large = beds_of(4 * 384, 2 * 0.673, beds);
+  compare(table, "a box twice as wide and deep", noted(folder + "/box", small, impacts),
+          noted(folder + "/large_box", large, impacts));
+  const auto told = [&](const char* what, double BedState::*number) {
+    const auto mean = [&](const std::vector<Bed<2>>& of) {
+      std::vector<double> values;
+      for (const Bed<2>& bed : of) values.push_back(bed.state.*number);
+      return mean_value(values);
+    };
+    table.remark(std::string("a box twice as wide and deep: ") + what, mean(small).mean, mean(large).mean,
+                 std::hypot(mean(small).error, mean(large).error));
+  };
+  told("coordination of the beds", &BedState::coordination);
+  told("packing fraction of the beds", &BedState::packing_fraction);
+  told("brinks per diameter", &BedState::roughness);
 }
 
 void sleep_rows(AccuracyTable& table) {

@@ -73,6 +73,20 @@ int CellGrid<Dim>::cell_of(const Place& place) const {
 }
 
 template <int Dim>
+long CellGrid<Dim>::rank_of(const Place& place) const {
+  constexpr int side = Dim == 2 ? 16 : 6;
+  std::array<int, Dim - 1> across;
+  long rank = 0;
+  for (std::size_t d = Dim - 1; d-- > 0;) {
+    across[d] = index(static_cast<int>(d), place[d]);
+    rank = rank * (counts_[d] / side + 1) + across[d] / side;
+  }
+  rank = rank * counts_[Dim - 1] + index(Dim - 1, place[Dim - 1]);
+  for (std::size_t d = Dim - 1; d-- > 0;) rank = rank * side + across[d] % side;
+  return rank;
+}
+
+template <int Dim>
 int CellGrid<Dim>::index(int axis, double coordinate) const {
   const auto d = static_cast<std::size_t>(axis);
   return static_cast<int>(std::clamp((coordinate - low_[d]) * inverse_[d], 0.0, counts_[d] - 1.0));

@@ -20,6 +20,9 @@ class CellGrid {
   void erase(int point);
   bool contains(int point) const;
   int cell_of(const Place& place) const;
+  /// Orders cells by upright columns, 16 cells wide (in space 6 by 6), and from the bottom to the top of
+  /// each: some hundred points in a row are then a compact block with few neighbours outside.
+  long rank_of(const Place& place) const;
 
   /// Calls `found(point)` for each point in the cells that a box of half side `reach` about a place meets.
   template <class Found>

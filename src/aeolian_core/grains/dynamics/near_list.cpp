@@ -45,14 +45,14 @@ void NearList<Dim>::restart(const std::vector<GrainRecord<Dim>>& grains) {
 
 template <int Dim>
 std::vector<int> NearList<Dim>::order(const std::vector<GrainRecord<Dim>>& grains) const {
-  std::vector<std::pair<int, int>> by_cell;
-  by_cell.reserve(grains.size());
+  std::vector<std::pair<long, int>> by_rank;
+  by_rank.reserve(grains.size());
   for (std::size_t slot = 1; slot < grains.size(); ++slot)
-    by_cell.emplace_back(cells_.cell_of(place_of(grains[slot])), static_cast<int>(slot));
-  std::sort(by_cell.begin(), by_cell.end());
+    by_rank.emplace_back(cells_.rank_of(place_of(grains[slot])), static_cast<int>(slot));
+  std::sort(by_rank.begin(), by_rank.end());
   std::vector<int> slots;
-  slots.reserve(by_cell.size());
-  for (const auto& [cell, slot] : by_cell) slots.push_back(slot);
+  slots.reserve(by_rank.size());
+  for (const auto& [rank, slot] : by_rank) slots.push_back(slot);
   return slots;
 }
 

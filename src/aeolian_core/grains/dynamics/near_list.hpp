@@ -37,7 +37,7 @@ class NearList {
   const Place& period() const { return period_; }
   const Anchor* anchors() const { return anchors_.data(); }
   const Anchor& anchor(int slot) const { return anchors_[static_cast<std::size_t>(slot)]; }
-  /// Slots by ascending cell.
+  /// Slots in an order that keeps neighbours together.
   std::vector<int> order(const std::vector<GrainRecord<Dim>>& grains) const;
 
  private:
