@@ -246,6 +246,22 @@ BENCHMARK(restitution_of_step)
     ->Arg(1152)
     ->Unit(benchmark::kMillisecond);
 
+/// Over 1e5 contacts without losses, over the steps in a contact.
+void energy_of_step(benchmark::State& state) {
+  double drift = 0;
+  for (auto _ : state) drift = energy_drift(static_cast<double>(state.range(0)));
+  state.counters["drift"] = drift;
+}
+BENCHMARK(energy_of_step)
+    ->Arg(18)
+    ->Arg(36)
+    ->Arg(72)
+    ->Arg(110)
+    ->Arg(150)
+    ->Arg(300)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+
 /// Over the stiffness [N/m].
 void rebound(benchmark::State& state) {
   Rebound mean;

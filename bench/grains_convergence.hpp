@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
@@ -32,6 +35,36 @@ inline GrainDynamics<2> settled_bed(int columns, int rows, double time) {
   world.drag = 0;
   grains.set_world(world);
   return grains;
+}
+
+/// The largest relative change of the energy of 100 discs without losses, in a periodic square at up to 14
+/// m/s, while they meet 1e5 times.
+inline double energy_drift(double steps_per_contact) {
+  constexpr int side = 10;
+  GrainWorld<2> world;
+  world.steps_per_contact = steps_per_contact;
+  world.law.damping = world.law.shear_damping = world.law.friction = 0;
+  world.acceleration.setZero();
+  world.period.setConstant(2.1 * side * disc_radius);
+  GrainDynamics<2> grains(world);
+  RandomStream random(3, 0);
+  for (int i = 0; i < side * side; ++i)
+    grains.add(2.1 * disc_radius * Vector<2>(i % side + 0.5, i / side + 0.5), disc_radius,
+               {20 * random.uniform() - 10, 20 * random.uniform() - 10});
+  const double energy = grains.kinetic_energy();
+  double worst = 0;
+  std::set<std::pair<int, int>> touching;
+  for (int begun = 0; begun < 100000;) {
+    grains.advance(5e-5);  // less than a contact
+    std::set<std::pair<int, int>> now;
+    for (const auto& contact : grains.contacts()) {
+      now.insert({contact.first, contact.second});
+      begun += touching.count({contact.first, contact.second}) == 0 ? 1 : 0;
+    }
+    touching.swap(now);
+    worst = std::max(worst, std::abs((grains.kinetic_energy() + grains.potential_energy()) / energy - 1));
+  }
+  return worst;
 }
 
 /// Relative error of a restitution, over when within a step the contact begins.

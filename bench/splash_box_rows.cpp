@@ -102,7 +102,7 @@ std::vector<Bed<2>> beds_of(int grains, double length, int count) {
 }  // namespace
 
 void box_rows(AccuracyTable& table, const std::string& folder) {
-  constexpr int impacts = 96;
+  constexpr int impacts = 64;
   constexpr int beds = 16;
   table.section(
       "Simulated impacts: a larger box",
