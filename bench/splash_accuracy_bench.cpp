@@ -1,9 +1,8 @@
 // The accuracy of grains, impacts and splash as a Markdown page: docs/accuracy/splash.md is what this prints.
 //
 //     ./twin bench splash_accuracy
-//     rosrun aeolian_twin splash_accuracy_bench FOLDER       # the same; notes impacts there, and goes on
-//     with them rosrun aeolian_twin splash_accuracy_bench figure | gnuplot >
-//     docs/accuracy/splash_functions.png
+//     rosrun aeolian_twin splash_accuracy_bench FOLDER  # notes impacts there and goes on with them
+//     rosrun aeolian_twin splash_accuracy_bench figure | gnuplot > docs/accuracy/splash_functions.png
 
 #include <filesystem>
 #include <string>
