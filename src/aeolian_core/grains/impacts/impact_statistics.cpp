@@ -67,7 +67,7 @@ void add_rebounds(const std::vector<const ImpactOutcome*>& outcomes, ImpactStati
 template <class Value>
 MeanValue over_ejecta(const std::vector<const ImpactOutcome*>& outcomes, Value value) {
   std::vector<std::vector<double>> groups;
-  groups.reserve(values.size());
+  groups.reserve(outcomes.size());
   for (const ImpactOutcome* o : outcomes) {
     groups.emplace_back();
     for (const RisenGrain& grain : o->ejecta) groups.back().push_back(value(grain));
