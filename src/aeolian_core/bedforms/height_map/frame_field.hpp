@@ -92,7 +92,7 @@ class FrameField {
  private:
   /// A multiple of 8, but not of 512: stations would share cache sets.
   static std::size_t stride_of(int rows) {
-    const std::size_t stride = (static_cast<std::size_t>(rows) + 2 * pad + 7) / 8 * 8;
+    const std::size_t stride = (static_cast<std::size_t>(rows) + 2 * std::size_t{pad} + 7) / 8 * 8;
     return stride % 512 == 0 ? stride + 8 : stride;
   }
 

@@ -42,7 +42,7 @@ AEOLIAN_KERNEL void box_mean(int n, int half, bool periodic, const double* __res
   double sums[lanes] = {};
   const auto add = [&](int i, double sign) {
     if (!periodic && (i < 0 || i >= n)) return;
-    const double* const line = values + (i % n + n) % n * lanes;
+    const double* const line = values + std::ptrdiff_t{(i % n + n) % n} * lanes;
     for (int k = 0; k < lanes; ++k) sums[k] += sign * line[k];
   };
   for (int i = -half; i < half; ++i) add(i, 1);
@@ -61,13 +61,13 @@ void smooth(std::vector<double>& values, int n, std::size_t along, int lines, st
   tbb::parallel_for(0, (lines + lanes - 1) / lanes, [&](int block) {
     const int first = block * lanes;
     const int count = std::min(lanes, lines - first);
-    std::vector<double> here(static_cast<std::size_t>(n * lanes), 0.0);
+    std::vector<double> here(static_cast<std::size_t>(n) * lanes, 0.0);
     std::vector<double> next(here.size());
     // By squares, each along what lies side by side: a cache holds no more of what lies far apart.
     const auto for_values = [&](auto&& visit) {
       const auto visit_one = [&](int i, int k) {
         visit(values[static_cast<std::size_t>(i) * along + static_cast<std::size_t>(first + k) * across],
-              here[static_cast<std::size_t>(i * lanes + k)]);
+              here[static_cast<std::size_t>(i) * lanes + static_cast<std::size_t>(k)]);
       };
       for (int from = 0; from < n; from += lanes) {
         const int to = std::min(from + lanes, n);

@@ -73,7 +73,7 @@ BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double du
   const HeightMap::Layer whole = filled(map.geometry(), elevation);
   std::vector<double> height(whole.begin(), whole.end());
   if (count_known(elevation) == elevation.size() && !map.has(layer::ground)) {
-    const BedChange change = advance(map.geometry(), height, forcing, duration);
+    BedChange change = advance(map.geometry(), height, forcing, duration);
     store(height, elevation);
     return change;
   }
@@ -85,7 +85,7 @@ BedChange RippleModel::advance(HeightMap& map, const Forcing& forcing, double du
     const double ground = map.layer(layer::ground)[i];
     if (std::isfinite(ground)) floor[i] = std::min(ground, height[i]);
   }
-  const BedChange change = advance(map.geometry(), height, &floor, &open, forcing, duration);
+  BedChange change = advance(map.geometry(), height, &floor, &open, forcing, duration);
   store(height, elevation);
   return change;
 }

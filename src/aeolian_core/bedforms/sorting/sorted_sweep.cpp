@@ -296,7 +296,7 @@ class SortedSweep::Bundle {
   std::array<SortedHopStage, stages> stage_;
   /// What the stages work with, at the last stations.
   Rings height_, exposure_, fine_, coarse_;
-  std::array<std::vector<double>, 2 * ring> fraction_;
+  std::array<std::vector<double>, std::size_t{2} * ring> fraction_;
 };
 
 /// As ImpactSweep does, for each size.

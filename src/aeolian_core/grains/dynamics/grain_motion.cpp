@@ -59,7 +59,7 @@ AEOLIAN_INLINE void kick(const KickWork<Dim>& work, const int* slots, int count,
     double* const load = work.loads[slots[k]].value;
     const double inverse_mass = value[Record::inverse_mass];
     const double inverse_inertia = value[Record::inverse_inertia];
-    double turning;  // speed of the surface, squared
+    double turning = 0;  // speed of the surface, squared
     const double radius = value[Record::radius];
     if constexpr (Dim == 2) {
       const Lanes inverse = Lanes{inverse_mass, inverse_mass, inverse_inertia, 0};

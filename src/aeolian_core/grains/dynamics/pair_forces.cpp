@@ -9,9 +9,9 @@ namespace {
 /// One pack of four records as columns.
 template <int Dim>
 AEOLIAN_INLINE void gather(const GrainRecord<Dim>* grains, const int* numbers, int pack, Lanes* columns) {
-  Lanes* const column = columns + 4 * pack;
+  Lanes* const column = columns + 4 * std::ptrdiff_t{pack};
   for (int lane = 0; lane < lane_count; ++lane)
-    column[lane] = load_lanes(grains[numbers[lane]].value + 4 * pack);
+    column[lane] = load_lanes(grains[numbers[lane]].value + 4 * std::ptrdiff_t{pack});
   transpose(column[0], column[1], column[2], column[3]);
 }
 
@@ -20,7 +20,7 @@ template <int Dim>
 AEOLIAN_INLINE void scatter(Lanes* columns, GrainLoad<Dim>* loads, const int* targets, int pack) {
   transpose(columns[0], columns[1], columns[2], columns[3]);
   for (int lane = 0; lane < lane_count; ++lane) {
-    double* const load = loads[targets[lane]].value + 4 * pack;
+    double* const load = loads[targets[lane]].value + 4 * std::ptrdiff_t{pack};
     store_lanes(load, load_lanes(load) + columns[lane]);
   }
 }
