@@ -31,8 +31,9 @@ constexpr int not_finite = 3;
 constexpr double high = fixed::greatest_height * fixed::steps_per_metre;
 
 /// Ranges, which may be floats: they only weigh.
-AEOLIAN_KERNEL void measure(const PointLocator& l, const float* __restrict px, const float* __restrict py,
-                            const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
+AEOLIAN_WIDE_KERNEL void measure(const PointLocator& l, const float* __restrict px,
+                                 const float* __restrict py, const float* __restrict pz, std::size_t count,
+                                 Placed& __restrict placed) {
   const auto ox = static_cast<float>(l.origin[0]);
   const auto oy = static_cast<float>(l.origin[1]);
   const auto oz = static_cast<float>(l.origin[2]);
@@ -56,8 +57,8 @@ inline double within(double value, double low, double top) {
 }
 
 /// Cells and heights; the bias is taken off along the rays.
-AEOLIAN_KERNEL void place(const PointLocator& l, const float* __restrict px, const float* __restrict py,
-                          const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
+AEOLIAN_WIDE_KERNEL void place(const PointLocator& l, const float* __restrict px, const float* __restrict py,
+                               const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
   const double ox = l.origin[0], oy = l.origin[1], oz = l.origin[2];
   const double to_cells = l.per_cell;
   const double r0 = l.rotation[0] * to_cells, r1 = l.rotation[1] * to_cells, r2 = l.rotation[2] * to_cells;
@@ -79,8 +80,8 @@ AEOLIAN_KERNEL void place(const PointLocator& l, const float* __restrict px, con
   }
 }
 
-AEOLIAN_KERNEL void judge(const PointLocator& l, const float* __restrict px, const float* __restrict py,
-                          const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
+AEOLIAN_WIDE_KERNEL void judge(const PointLocator& l, const float* __restrict px, const float* __restrict py,
+                               const float* __restrict pz, std::size_t count, Placed& __restrict placed) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   const float nearest = l.georeferenced ? -1 : static_cast<float>(l.nearest);
   const float farthest = l.georeferenced ? infinite : static_cast<float>(l.farthest);
@@ -101,7 +102,7 @@ AEOLIAN_KERNEL void judge(const PointLocator& l, const float* __restrict px, con
   }
 }
 
-AEOLIAN_KERNEL void weigh(const PointLocator& l, std::size_t count, Placed& __restrict placed) {
+AEOLIAN_WIDE_KERNEL void weigh(const PointLocator& l, std::size_t count, Placed& __restrict placed) {
   const SensorNoise& n = l.noise;
   const bool rays = !l.georeferenced;  // without them the variance is range_sigma^2 in any direction
   const float m2 = rays ? static_cast<float>(SensorNoise::bed_slope * SensorNoise::bed_slope) : 1;
@@ -129,8 +130,8 @@ AEOLIAN_KERNEL void weigh(const PointLocator& l, std::size_t count, Placed& __re
   }
 }
 
-AEOLIAN_KERNEL void pack(const PointLocator& l, std::size_t count, const Placed& __restrict placed,
-                         std::int32_t* __restrict tile, Sample* __restrict sample) {
+AEOLIAN_WIDE_KERNEL void pack(const PointLocator& l, std::size_t count, const Placed& __restrict placed,
+                              std::int32_t* __restrict tile, Sample* __restrict sample) {
   constexpr int side = TileMask::tile_cells;
   const int tiles_x = l.tiles_x;
   for (std::size_t i = 0; i < count; ++i) {
@@ -144,7 +145,7 @@ AEOLIAN_KERNEL void pack(const PointLocator& l, std::size_t count, const Placed&
   }
 }
 
-AEOLIAN_KERNEL PointCounts count_fates(std::size_t count, const std::int32_t* fate) {
+AEOLIAN_WIDE_KERNEL PointCounts count_fates(std::size_t count, const std::int32_t* fate) {
   std::int32_t lost = 0;
   for (std::size_t i = 0; i < count; ++i) lost |= fate[i];
   if (lost == 0) return {count, 0, 0, 0};

@@ -176,8 +176,8 @@ inline void predict(Cell& c, float height_per_rate, float rate_kept, float heigh
   c.rate_variance = rate_kept * rate_kept * c.rate_variance + rate_variance;
 }
 
-AEOLIAN_KERNEL MotionEvidence advance_all(const CellBatch& batch, const CellSteps& in,
-                                          const PointScale& scale) {
+AEOLIAN_WIDE_KERNEL MotionEvidence advance_all(const CellBatch& batch, const CellSteps& in,
+                                               const PointScale& scale) {
   Columns columns;
   StepColumns steps;
   load(batch, scale, columns);
@@ -203,8 +203,8 @@ AEOLIAN_KERNEL MotionEvidence advance_all(const CellBatch& batch, const CellStep
   return {rest, drift};
 }
 
-AEOLIAN_KERNEL void estimate(const CellBatch& batch, const float* __restrict still_share,
-                             const PointScale& scale, CellEstimates& __restrict result) {
+AEOLIAN_WIDE_KERNEL void estimate(const CellBatch& batch, const float* __restrict still_share,
+                                  const PointScale& scale, CellEstimates& __restrict result) {
   Columns columns;
   load(batch, scale, columns);
   for (std::size_t i = 0; i < size; ++i) {
