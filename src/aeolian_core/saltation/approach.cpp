@@ -15,7 +15,10 @@ constexpr int memory = 5;
 /// them slow the wind.
 constexpr double gain = 0.4;
 constexpr double longest_step = 0.3;
+/// In what is to be small: of ln(surface wind), and of parts of the spectrum over the largest. Fewest steps
+/// from neighbouring winds, over 6230 states.
 constexpr double surface_weight = 3;
+constexpr double spectrum_weight = 0.5;
 constexpr double furthest = 2;  ///< from a state, over the way to it that tells the direction
 
 /// How much the wind at the surface weakens for one that is free and grows stronger, nearly, whatever the
@@ -119,7 +122,7 @@ void Approach::mix(double most) {
   x << std::log(surface_), Eigen::VectorXd::Map(spectrum_.data(), n), Eigen::VectorXd::Map(share_.data(), m);
   g << std::log(surface_) + asked, Eigen::VectorXd::Map(next_spectrum_.data(), n),
       Eigen::VectorXd::Map(next_share_.data(), m);
-  weight << surface_weight, Eigen::VectorXd::Constant(n, 1 / largest), Eigen::VectorXd::Ones(m);
+  weight << surface_weight, Eigen::VectorXd::Constant(n, spectrum_weight / largest), Eigen::VectorXd::Ones(m);
 
   const Eigen::VectorXd mixed = mixing_.next(x, g, weight);
   surface_ = std::min(most, surface_ * std::exp(std::clamp(mixed[0] - x[0], -longest_step, longest_step)));
