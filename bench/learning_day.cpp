@@ -10,6 +10,7 @@
 #include "aeolian_core/measure/virtual_anemometer.hpp"
 #include "aeolian_core/saltation/saltation_state.hpp"
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
 #include "aeolian_core/surface/random.hpp"
 #include "aeolian_core/wind/log_law.hpp"
@@ -20,7 +21,6 @@ namespace {
 constexpr double wind_rate = 2;     // [Hz]
 constexpr double bed_step = 1;      // the bed advances under the mean wind of so long [s]
 constexpr double spacing = 0.0008;  // of the lattice's columns [m]
-constexpr double degree = M_PI / 180;
 
 std::string name_of(double time) { return fmt::format("elevation_{:04.0f}", time); }
 

@@ -5,6 +5,7 @@
 
 #include "aeolian_core/measure/fusion.hpp"
 #include "aeolian_core/measure/virtual_scanner.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
@@ -13,7 +14,6 @@ namespace {
 constexpr double noise = 0.0002;        // of a cell [m]
 constexpr double range_sigma = 0.0006;  // of a scanner [m]
 constexpr double minute = 60;           // [s]
-constexpr double degree = M_PI / 180;
 
 HeightMap surface_at(const LearningDay& day, double time) {
   HeightMap map(day.plot);

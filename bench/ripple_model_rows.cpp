@@ -9,12 +9,12 @@
 
 #include "aeolian_core/bedforms/bedforms.hpp"
 #include "aeolian_core/bedforms/theory/independent_members.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double hop = 0.01;
 constexpr double erosion_rate = 1e-4;
 constexpr double unit_time = hop / erosion_rate;

@@ -10,11 +10,11 @@
 #include "aeolian_core/bedforms/theory/periodic_profile.hpp"
 #include "aeolian_core/bedforms/theory/ripple_collision.hpp"
 #include "aeolian_core/bedforms/theory/worm_model.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double cm = 0.01;
 constexpr std::uint64_t seed = 1;
 

@@ -13,13 +13,13 @@
 #include "rendering/shadow_score.hpp"
 #include <fmt/format.h>
 
+#include "aeolian_core/surface/degree.hpp"
+
 namespace aeolian {
 namespace {
 
 using Members = std::vector<const EnsembleMember*>;
 using Grouping = std::function<std::string(const EnsembleMember&)>;
-
-constexpr double degree = M_PI / 180;
 
 std::string light_of(const EnsembleMember& m) {
   switch (m.set_up.setup.light.index()) {

@@ -13,11 +13,10 @@
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
 #include "aeolian_core/grains/splash/splash_table.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 double seconds(std::clock_t ticks) { return static_cast<double>(ticks) / CLOCKS_PER_SEC; }
 

@@ -7,11 +7,11 @@
 #include "aeolian_core/grains/splash/coarse_sand.hpp"
 #include "aeolian_core/grains/splash/reptation.hpp"
 #include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int draws = 10000;
 
 struct Found {

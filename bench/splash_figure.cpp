@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int draws = 4000;
 
 struct Curve {

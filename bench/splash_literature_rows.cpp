@@ -10,11 +10,11 @@
 #include "aeolian_core/grains/splash/kok_renno.hpp"
 #include "aeolian_core/grains/splash/laemmel.hpp"
 #include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int draws = 160000;
 
 void distributions(AccuracyTable& table) {

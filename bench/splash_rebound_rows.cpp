@@ -6,11 +6,11 @@
 #include "splash_rows.hpp"
 
 #include "aeolian_core/grains/splash/rebound_model.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int rays = 20000;
 constexpr double curve = 0.005;  // R2
 

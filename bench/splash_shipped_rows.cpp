@@ -7,11 +7,10 @@
 
 #include "aeolian_core/grains/splash/coarse_sand.hpp"
 #include "aeolian_core/grains/splash/splash_table.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 struct Means {
   Sample ratio, upward, ejecta_speed;

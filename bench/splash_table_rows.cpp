@@ -6,11 +6,11 @@
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
 #include "aeolian_core/grains/splash/splash_table.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int draws = 40000;
 
 /// What a place between nodes is made of: rebounds' speed and upward speed over the impact's, ejecta and

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../degree.hpp"
 #include "../rendering/laboratory.hpp"
 #include "../rendering/ripple_bed.hpp"
 #include "../rendering/shadow_score.hpp"
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {

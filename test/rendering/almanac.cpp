@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../degree.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../degree.hpp"
 #include "lens.hpp"
 #include "ripple_bed.hpp"
 #include "scene_frames.hpp"
@@ -10,6 +9,7 @@
 #include "setup_yaml.hpp"
 #include "shadow_scene.hpp"
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
 

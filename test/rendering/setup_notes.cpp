@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../degree.hpp"
 #include "almanac.hpp"
 #include "lens.hpp"
 #include "scene_frames.hpp"
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 

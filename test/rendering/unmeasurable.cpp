@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../degree.hpp"
 #include "grain_texture.hpp"
 #include "image_formation.hpp"
 #include <opencv2/imgproc.hpp>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <numeric>
 
-#include "../degree.hpp"
 #include "../rendering/shadow_scene.hpp"
 #include "../temporary_folder.hpp"
 #include "program_outcome.hpp"
@@ -26,6 +25,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <yaml-cpp/yaml.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/geotiff.hpp"
 #include "aeolian_core/surface/resample.hpp"
 #include "aeolian_twin/nodes/conversions.hpp"

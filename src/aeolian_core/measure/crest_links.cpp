@@ -8,7 +8,7 @@
 namespace aeolian {
 namespace {
 
-constexpr double steepest = 1.75;  ///< samples from row to row: 60 degrees
+constexpr double steepest_crest = 1.75;  ///< samples from row to row: 60 degrees
 
 /// A line that may go on.
 struct OpenLine {
@@ -52,13 +52,14 @@ std::vector<std::vector<RowPlace>> link_rows(const std::vector<std::vector<RowCr
 
     for (std::size_t c = 0; c < crests.size(); ++c) {
       const auto line = nearest(expected, places[c]);
-      const double reach = line ? std::clamp(1 + steepest * (row - open[*line].row), 0.15 * wavelength,
+      const double reach = line ? std::clamp(1 + steepest_crest * (row - open[*line].row), 0.15 * wavelength,
                                              std::max(0.25 * wavelength, 1.0))
                                 : 0;
       const RowPlace here{row, static_cast<int>(c)};
       if (line && nearest(places, expected[*line]) == c && std::abs(expected[*line] - places[c]) <= reach) {
         OpenLine& on = open[*line];
-        const double drift = std::clamp((places[c] - on.place) / (row - on.row), -steepest, steepest);
+        const double drift =
+            std::clamp((places[c] - on.place) / (row - on.row), -steepest_crest, steepest_crest);
         on.drift += (drift - on.drift) / memory;
         on.place = places[c];
         on.row = row;

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "aeolian_core/measure/none.hpp"
+
 namespace aeolian {
-namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 CrestMotions::CrestMotions(std::vector<TrackedMap>& maps, double direction)
     : maps_(maps), direction_(direction), shared_(maps.size()), displacement_(maps.size()) {

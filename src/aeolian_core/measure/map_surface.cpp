@@ -9,9 +9,9 @@
 namespace aeolian {
 namespace {
 
-constexpr int reach = 3;  // cells to each side of a plane's own
-constexpr int most = (2 * reach + 1) * (2 * reach + 1);
-constexpr int fewest = most / 2;
+constexpr int plane_reach = 3;  // cells to each side of a plane's own
+constexpr int most = (2 * plane_reach + 1) * (2 * plane_reach + 1);
+constexpr int fewest_cells = most / 2;
 constexpr double least_normal_z = 0.5;
 constexpr double most_normal_variance = 0.3 * 0.3;
 
@@ -47,8 +47,8 @@ std::optional<Matrix6> inverse_for(const Offsets& known) {
 const Matrix6& whole_inverse() {
   static const Matrix6 inverse = [] {
     Offsets all;
-    for (int y = -reach; y <= reach; ++y)
-      for (int x = -reach; x <= reach; ++x) all.add({x, y});
+    for (int y = -plane_reach; y <= plane_reach; ++y)
+      for (int x = -plane_reach; x <= plane_reach; ++x) all.add({x, y});
     return *inverse_for(all);
   }();
   return inverse;
@@ -69,8 +69,10 @@ MapSurface::Plane MapSurface::fitted(CellIndex cell) const {
   Terms right = Terms::Zero();
   double squares = 0;
   Offsets known;
-  for (int y = std::max(cell.y - reach, 0); y <= std::min(cell.y + reach, geometry_.ny() - 1); ++y)
-    for (int x = std::max(cell.x - reach, 0); x <= std::min(cell.x + reach, geometry_.nx() - 1); ++x) {
+  for (int y = std::max(cell.y - plane_reach, 0); y <= std::min(cell.y + plane_reach, geometry_.ny() - 1);
+       ++y)
+    for (int x = std::max(cell.x - plane_reach, 0); x <= std::min(cell.x + plane_reach, geometry_.nx() - 1);
+         ++x) {
       const double height = static_cast<double>(elevation_[geometry_.index(x, y)]) - own;
       if (!std::isfinite(height)) continue;
       const CellIndex offset{x - cell.x, y - cell.y};
@@ -78,7 +80,7 @@ MapSurface::Plane MapSurface::fitted(CellIndex cell) const {
       squares += height * height;
       known.add(offset);
     }
-  if (known.count < fewest) return none;
+  if (known.count < fewest_cells) return none;
   const std::optional<Matrix6> inverse = known.count == most ? whole_inverse() : inverse_for(known);
   if (!inverse) return none;
   const Terms solution = *inverse * right;

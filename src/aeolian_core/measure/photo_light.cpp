@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/measure/sun_position.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double lowest = 3 * degree;
 constexpr double highest = 85 * degree;
 constexpr double angle_sigma = 0.1 * degree;  // of given angles

@@ -8,13 +8,13 @@
 
 #include "aeolian_core/measure/scale_marks.hpp"
 #include "aeolian_core/measure/sun_position.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double millimetre = 1e-3;
 constexpr double lowest_light = 3;    ///< [degrees]
 constexpr double highest_light = 85;  ///< [degrees]

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "aeolian_core/measure/length_scales.hpp"
+#include "aeolian_core/measure/none.hpp"
 #include "aeolian_core/measure/power_spectrum.hpp"
 #include "aeolian_core/measure/profile_noise.hpp"
 #include "aeolian_core/measure/profile_ripples.hpp"
@@ -17,7 +18,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Relief below a micrometre is rounding.
 constexpr double least_relief = 1e-6;
 

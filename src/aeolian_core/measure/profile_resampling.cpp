@@ -9,7 +9,7 @@
 namespace aeolian {
 namespace {
 
-constexpr std::size_t fewest = 8;
+constexpr std::size_t fewest_stations = 8;
 
 struct Stations {
   std::vector<double> x;  ///< along the horizontal [m]
@@ -113,7 +113,8 @@ double interpolated(const Stations& stations, std::size_t k, double x, double sp
 
 [[noreturn]] void refuse(std::size_t left, double max_gap) {
   throw Error("profile: " + std::to_string(left) + " samples in a stretch without gaps over " +
-              std::to_string(1000 * max_gap) + " mm, at least " + std::to_string(fewest) + " are needed");
+              std::to_string(1000 * max_gap) + " mm, at least " + std::to_string(fewest_stations) +
+              " are needed");
 }
 
 }  // namespace
@@ -123,14 +124,14 @@ EvenProfile resample(const ShadowProfile& profile, double step, double max_gap) 
     throw Error("resampling a profile: step " + std::to_string(step) + " m, largest gap " +
                 std::to_string(max_gap) + " m: both must be positive");
   Stations stations = measured(profile);
-  if (stations.size() < fewest) refuse(stations.size(), max_gap);
+  if (stations.size() < fewest_stations) refuse(stations.size(), max_gap);
   make_horizontal(stations, profile);
   const double spacing = median_spacing(stations.x);
   if (!(spacing > 0)) throw Error("profile: positions do not rise along the straightedge");
   stations = longest_stretch(advancing(stations, spacing), max_gap);
   const double length = stations.x.back() - stations.x.front();
   const auto count = static_cast<std::size_t>(length / step * (1 + 1e-12)) + 1;
-  if (std::min(count, stations.size()) < fewest) refuse(std::min(count, stations.size()), max_gap);
+  if (std::min(count, stations.size()) < fewest_stations) refuse(std::min(count, stations.size()), max_gap);
 
   EvenProfile even;
   even.start = stations.x.front();

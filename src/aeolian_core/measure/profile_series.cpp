@@ -4,14 +4,13 @@
 #include <string>
 
 #include "aeolian_core/measure/crest_tracks.hpp"
+#include "aeolian_core/measure/none.hpp"
 #include "aeolian_core/measure/profile_analysis.hpp"
 #include "aeolian_core/measure/profile_shift.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double length_of(const EvenProfile& profile) {
   return profile.step * static_cast<double>(profile.z.size() - 1);

@@ -40,10 +40,10 @@ std::vector<Stretch> stretches(const std::vector<Eigen::Vector3d>& points, doubl
 }
 
 /// The heights of a stretch over the places along the section.
-class Section {
+class StripSection {
  public:
-  Section(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& sigma,
-          const Stretch& stretch, Eigen::Vector2d along)
+  StripSection(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& sigma,
+               const Stretch& stretch, Eigen::Vector2d along)
       : along_(std::move(along)) {
     for (std::size_t i = stretch.first; i < stretch.end; ++i) {
       places_.push_back(along_.dot(points[i].head<2>()));
@@ -132,7 +132,7 @@ HeightMap profile_strip(const ShadowProfile& profile, const Eigen::Isometry3d& l
   const Eigen::Vector2d along = level_to_map.linear().col(0).head<2>();
   const GridGeometry& geometry = map.geometry();
   for (const Stretch& stretch : stretches(points, cell)) {
-    const Section section(points, profile.sigma_z, stretch, along);
+    const StripSection section(points, profile.sigma_z, stretch, along);
     for_each_place(points, stretch, cell / 4, [&](const Eigen::Vector2d& place) {
       const std::optional<CellIndex> index = geometry.find(place.x(), place.y());
       if (!index) return;

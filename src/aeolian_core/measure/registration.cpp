@@ -13,6 +13,7 @@
 
 #include "aeolian_core/measure/cloud_sample.hpp"
 #include "aeolian_core/measure/map_surface.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/median.hpp"
 #include "aeolian_core/surface/quiet_pcl.hpp"
 #include "aeolian_core/surface/require.hpp"
@@ -199,7 +200,6 @@ std::optional<Eigen::Isometry3d> move_by_ndt(const Points& points, MapSurface& s
 
 /// Why the refinement is not to be trusted; empty when it is.
 std::string objection(const Registration& r, std::size_t given_pairs, const RegistrationParameters& p) {
-  constexpr double degree = M_PI / 180;
   if (r.shift > p.max_shift)
     return fmt::format("would move a point of the cloud by {:.3g} m, at most {:g} m are allowed", r.shift,
                        p.max_shift);

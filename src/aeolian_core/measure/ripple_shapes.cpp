@@ -5,12 +5,11 @@
 #include <complex>
 #include <limits>
 
+#include "aeolian_core/measure/none.hpp"
 #include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Values of sections, of which as many are independent as `per_section` of them all.
 Figure mean_of(const std::vector<double>& values, double per_section) {

@@ -6,13 +6,12 @@
 #include <string>
 
 #include "aeolian_core/measure/directional_lines.hpp"
+#include "aeolian_core/measure/none.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Offset of the top of the parabola through three equidistant values, in steps from the middle one.
 double parabola_top(double before, double middle, double after) {

@@ -7,6 +7,7 @@
 
 #include "aeolian_core/measure/crest_motions.hpp"
 #include "aeolian_core/measure/defect_tracks.hpp"
+#include "aeolian_core/measure/none.hpp"
 #include "aeolian_core/measure/ripple_events.hpp"
 #include "aeolian_core/measure/ripple_statistics.hpp"
 #include "aeolian_core/surface/error.hpp"
@@ -15,7 +16,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double rows_per_wavelength = 8;
 
 /// What is seen of a row whose places are `step` apart.

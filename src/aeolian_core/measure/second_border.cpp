@@ -6,10 +6,10 @@
 namespace aeolian {
 namespace {
 
-constexpr double zone = 1e-3;      // over which light is averaged across the border [m]
-constexpr double reach = 8e-3;     // so far from the border is looked [m]
-constexpr double different = 0.3;  // of the step from dark to lit
-constexpr double edge_px = 3;      // beside the bright bar, not looked at
+constexpr double zone = 1e-3;          // over which light is averaged across the border [m]
+constexpr double search_reach = 8e-3;  // so far from the border is looked [m]
+constexpr double different = 0.3;      // of the step from dark to lit
+constexpr double edge_px = 3;          // beside the bright bar, not looked at
 constexpr std::size_t stations = 300;
 constexpr int neighbours = 4;  // on either side, averaged against grains
 
@@ -22,7 +22,7 @@ Ladder climb(const Tone& tone, const PhotoGeometry& geometry, const Eigen::Vecto
              double gap, double pixel_size) {
   Ladder ladder;
   const int rows = std::max(1, static_cast<int>(zone / pixel_size + 0.5));
-  const int zones = static_cast<int>(reach / (rows * pixel_size));
+  const int zones = static_cast<int>(search_reach / (rows * pixel_size));
   const double y = side * border.y();
   const auto mean = [&](double from, double direction) {
     double sum = 0;

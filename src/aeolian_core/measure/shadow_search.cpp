@@ -19,7 +19,7 @@ constexpr double least_contrast = 1.5;  // sunlit over shaded, linear light
 constexpr double clearly_darker = 1.5;  // of two shadows, in linear light
 constexpr double least_darker = 0.4;    // light inside the border over that further in
 constexpr float least_light = 0.02F;    // linear, of a lit bed that can be told from noise
-constexpr double reach = 6e-3;          // so far on either side of the border the light must be right [m]
+constexpr double light_reach = 6e-3;    // so far on either side of the border the light must be right [m]
 constexpr int least_shadow = 3;         // rows
 constexpr float hidden_cost = 0.4F;
 constexpr float bend_cost = 0.25F;     // of a path that changes by one row, in rows of wrong light
@@ -149,7 +149,7 @@ float sunlit(float light, const Levels& levels) {
 std::vector<int> best_path(const Grid& grid, const std::vector<Levels>& levels) {
   const int rows = grid.rows + 1;
   const auto size = static_cast<std::size_t>(rows);
-  const int window = std::max(12, static_cast<int>(reach / grid.row));
+  const int window = std::max(12, static_cast<int>(light_reach / grid.row));
   std::vector<float> cost(size, 0);
   std::vector<float> sums(size + 1);
   std::vector<std::uint16_t> from(size * static_cast<std::size_t>(grid.columns));

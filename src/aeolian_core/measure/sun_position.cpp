@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double seconds_per_day = 86400;
 constexpr double unix_epoch = 2440587.5;  ///< Julian day
 constexpr double j2000 = 2451545.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -23,7 +24,6 @@ struct SolvedGrain {
   double hop_length;    ///< [m]
 };
 
-constexpr double degree = M_PI / 180;
 constexpr SolvedGrain fine{0.00025, 0.209, 0.242, 0.08, 1.39, 14.1 * degree, 0.148};
 constexpr SolvedGrain coarse{0.00040, 0.270, 0.2995, 0.1365, 1.65, 15.5 * degree, 0.210};
 

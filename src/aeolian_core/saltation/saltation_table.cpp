@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "aeolian_core/surface/csv.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double kept_tolerance = 1e-4;  ///< what is kept has time to be solved well
 
 void require_ascending(const char* what, const std::vector<double>& values, double least) {

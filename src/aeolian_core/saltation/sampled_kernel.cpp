@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
@@ -14,7 +15,6 @@ namespace {
 constexpr double fastest_launch = 100;       ///< [m/s]
 constexpr double slowest_impact = 1.0 / 16;  ///< [m/s]; slower ones do as these
 constexpr double knots_per_octave = 3;
-constexpr double degree = M_PI / 180;
 constexpr std::array<double, 14> angles{1 * degree,  4 * degree,  7 * degree,  10 * degree, 13 * degree,
                                         16 * degree, 20 * degree, 25 * degree, 32 * degree, 41 * degree,
                                         52 * degree, 64 * degree, 77 * degree, 90 * degree};

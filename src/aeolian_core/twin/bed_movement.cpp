@@ -11,12 +11,12 @@
 namespace aeolian {
 namespace {
 
-constexpr double side = 0.008;  // of a square [m]
+constexpr double square_side = 0.008;  // of a square [m]
 
 /// Elevations as means over squares of the grid's cells.
 HeightMap::Layer means(const HeightMap& map) {
   const GridGeometry& g = map.geometry();
-  const int factor = cells_within(g, side);
+  const int factor = cells_within(g, square_side);
   if (factor == 1) return map.layer(layer::elevation);
   HeightMap elevation(g);
   elevation.add(layer::elevation, map.layer(layer::elevation));

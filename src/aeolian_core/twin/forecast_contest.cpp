@@ -7,7 +7,7 @@
 namespace aeolian {
 namespace {
 
-constexpr double side = 0.05;  // of a square [m]
+constexpr double square_side = 0.05;  // of a square [m]
 constexpr double fewest_squares = 8;
 
 constexpr double square(double value) { return value * value; }
@@ -20,7 +20,7 @@ struct Square {
 
 std::vector<Square> squares_of(const HeightMap& first, const HeightMap& second, const HeightMap& measured) {
   const GridGeometry& g = measured.geometry();
-  const int cells = std::max(1, static_cast<int>(std::lround(side / g.cell())));
+  const int cells = std::max(1, static_cast<int>(std::lround(square_side / g.cell())));
   const int across = (g.nx() + cells - 1) / cells;
   const int up = (g.ny() + cells - 1) / cells;
   std::vector<Square> squares(static_cast<std::size_t>(across) * static_cast<std::size_t>(up));

@@ -17,8 +17,6 @@
 namespace aeolian {
 namespace {
 
-constexpr Require require{"ensemble"};
-
 /// Another for each forecast: errors of the wind and of the map are drawn anew.
 std::uint64_t number_of(const std::vector<WindSpell>& wind) {
   std::uint64_t bits = 0;
@@ -68,7 +66,8 @@ struct ForecastEnsemble::Disturbance {
 
 ForecastEnsemble::ForecastEnsemble(TwinPhysics physics, const Settings& settings)
     : physics_(std::move(physics)), settings_(settings) {
-  const auto not_negative = [](double value, const char* name) {
+  constexpr Require require{"ensemble"};
+  const auto not_negative = [&](double value, const char* name) {
     require(value >= 0 && std::isfinite(value), name, value, "zero or more and finite");
   };
   not_negative(settings.member_cell, "cell of members");
@@ -120,6 +119,7 @@ EnsembleForecast ForecastEnsemble::run(const HeightMap& start, const std::vector
                                        const std::vector<double>& horizons,
                                        const std::vector<UncertainParameters>& members,
                                        const UncertainParameters& median) const {
+  constexpr Require require{"ensemble"};
   require(!wind.empty(), "number of spells of wind", 0, "one or more");
   const auto run_model = [&](const HeightMap& from, const std::vector<ForcingSpell>& forcing,
                              const UncertainParameters& parameters) {

@@ -6,8 +6,8 @@
 namespace aeolian {
 namespace {
 
-constexpr int parts = 8;
-constexpr int few_lines = 2 * parts;
+constexpr int strip_count = 8;
+constexpr int few_lines = 2 * strip_count;
 
 /// Offset of the top of the parabola through three equidistant values, in steps from the middle one.
 double parabola_top(const LineCorrelation::Curve& curve, std::size_t middle) {
@@ -80,10 +80,10 @@ LineSpectra::LineSpectra(const DirectionalLines& lines)
       padded_(cv::getOptimalDFTSize(lines.length + lines.length / 2 + 2)),
       all_(transforms_of(lines)) {
   if (lines.count >= few_lines) return;
-  for (int part = 0; part < parts; ++part) {
+  for (int part = 0; part < strip_count; ++part) {
     DirectionalLines rest = lines;
     for (int line = 0; line < lines.count; ++line)
-      for (int i = part * lines.length / parts; i < (part + 1) * lines.length / parts; ++i) {
+      for (int i = part * lines.length / strip_count; i < (part + 1) * lines.length / strip_count; ++i) {
         const std::size_t at = lines.start(line) + static_cast<std::size_t>(i);
         rest.value[at] = 0;
         rest.known[at] = 0;
@@ -117,8 +117,9 @@ LineCorrelation::LineCorrelation(const LineSpectra& earlier, const LineSpectra& 
   }
   std::vector<PairSums> strips;
   PairSums total;
-  for (int part = 0; part < parts; ++part) {
-    strips.push_back(sums_of(earlier.all_, later.all_, {part * count / parts, (part + 1) * count / parts}));
+  for (int part = 0; part < strip_count; ++part) {
+    strips.push_back(
+        sums_of(earlier.all_, later.all_, {part * count / strip_count, (part + 1) * count / strip_count}));
     total.add(strips.back(), 1);
   }
   curve_ = coefficients(total, samples);

@@ -9,10 +9,10 @@
 namespace aeolian {
 namespace {
 
-constexpr Require require{"prior"};
 constexpr std::uint64_t stream_of_members = 0x706172616d6574;  // "paramet": like no other stream of a seed
 
 void check(const ParameterPriors& priors) {
+  constexpr Require require{"prior"};
   for (std::size_t i = 0; i < priors.size(); ++i) {
     const ParameterPrior& prior = priors[i];
     const std::string& name = UncertainParameters::names()[i];

@@ -7,6 +7,7 @@
 
 #include "aeolian_core/measure/profile_strip.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 
 namespace aeolian {
 
@@ -25,7 +26,6 @@ double height_at(const EvenProfile& even, double place) {
 }
 
 std::string in_one_line(const ProfileAnalysis& analysis, const std::string& between) {
-  constexpr double to_mm = 1e3;
   if (analysis.ripples.empty())
     return fmt::format("no ripples, roughness {} mm", stated(analysis.roughness, to_mm, between));
   return fmt::format("{} ripple{}, wavelength {} mm, height {} mm, index {}", analysis.ripples.size(),

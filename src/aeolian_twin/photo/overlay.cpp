@@ -10,6 +10,7 @@
 #include "aeolian_core/surface/median.hpp"
 #include "aeolian_twin/photo/canvas.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 
 namespace aeolian {
 namespace {
@@ -117,8 +118,6 @@ class Overlay {
   }
 
   std::vector<std::string> words() const {
-    constexpr double to_mm = 1e3;
-    constexpr double to_degrees = 180 / M_PI;
     const ProfileAnalysis& analysis = photo_.analysis;
     const auto with = [](const Figure& figure, double factor) { return stated(figure, factor, "±"); };
     std::vector<std::string> lines;

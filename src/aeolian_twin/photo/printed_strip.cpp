@@ -13,12 +13,12 @@
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/text.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 
 namespace aeolian {
 namespace {
 
 // Lengths below are millimetres, as on paper.
-constexpr double to_mm = 1e3;
 constexpr double page_width = 297;
 constexpr double page_height = 210;
 constexpr double margin = 13.5;

@@ -5,13 +5,11 @@
 
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/csv.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 #include "aeolian_twin/photo/yaml_figures.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double to_mm = 1e3;
-constexpr double to_degrees = 180 / M_PI;
 
 /// In another unit, rounded far below any error, so that files are not full of digits.
 std::vector<double> column(const std::vector<double>& values, double factor) {

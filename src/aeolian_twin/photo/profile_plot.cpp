@@ -8,13 +8,12 @@
 
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 #include "aeolian_twin/photo/plot_panel.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double to_mm = 1e3;
-constexpr double to_degrees = 180 / M_PI;
 constexpr int width_px = 1100;
 constexpr int height_px = 640;
 constexpr double left = 0.075;

@@ -10,13 +10,11 @@
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/text.hpp"
 #include "aeolian_twin/photo/figure_text.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 #include "aeolian_twin/photo/yaml_figures.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double to_mm = 1e3;
-constexpr double to_mm_per_minute = 1e3 * 60;
 
 const char* name_of(ProfileSeries::Event::Kind kind) {
   switch (kind) {

@@ -6,16 +6,15 @@
 
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
+#include "aeolian_twin/photo/figure_units.hpp"
 #include "aeolian_twin/photo/plot_panel.hpp"
 #include "aeolian_twin/photo/series.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double to_mm = 1e3;
-constexpr double to_mm_per_minute = 1e3 * 60;
-constexpr double left = 0.12;
-constexpr double right = 0.965;
+constexpr double panel_left = 0.12;
+constexpr double panel_right = 0.965;
 
 /// A profile without its slope.
 Curve level_curve(const EvenProfile& even) {
@@ -60,7 +59,7 @@ void write_waterfall(std::ostream& out, const MeasuredSeries& series, double bot
     plot += fmt::format("{}$profile{} using 1:2 with lines lw 1.3 lc rgb measured notitle",
                         plot.empty() ? "plot " : ", ", i);
   }
-  out << panel_place(left, right, 0.92, bottom)
+  out << panel_place(panel_left, panel_right, 0.92, bottom)
       << fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", x.low, x.high, -0.8 * distance,
                      (count - 0.2) * distance)
       << "set ytics noenhanced (" << tics
@@ -87,7 +86,7 @@ void write_migration(std::ostream& out, const ProfileSeries& change, const std::
   write_data(out, "speed", speed);
   const PlotRange y = range_of(ends, 0.1);
   const PlotRange x = range_of(speed.x, 0.05);
-  out << panel_place(left, right, 0.27, 0.08)
+  out << panel_place(panel_left, panel_right, 0.27, 0.08)
       << fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics {}\n", std::min(0.0, x.low), x.high,
                      y.low, y.high, tic_step(y.width()))
       << "set xlabel 'time since the first photo [min]'\nset ylabel 'mm/min'\nset grid y\n"

@@ -9,6 +9,7 @@
 #include "aeolian_core/slide/calibration/snow_calibration.hpp"
 #include "aeolian_core/surface/atomic_file.hpp"
 #include "aeolian_core/surface/csv.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/text.hpp"
 #include "aeolian_core/surface/yaml_section.hpp"
 #include "aeolian_twin/slide/slide_jobs.hpp"
@@ -17,8 +18,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 struct CalibrationConfig {
   SlideConfig base;

@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/yaml_section.hpp"
 #include "aeolian_twin/slide/slide_jobs.hpp"
@@ -15,8 +16,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 Range range_of(YamlSection& root, const std::string& key, double least, double most) {
   const std::vector<double> ends = root.numbers(key);

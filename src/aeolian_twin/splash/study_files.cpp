@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/text.hpp"
 #include "aeolian_twin/splash/study_quantities.hpp"
 #include "aeolian_twin/splash/thesis_tables.hpp"
@@ -11,7 +12,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Lines of comma-separated values.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
 #include "aeolian_twin/photo/plot_panel.hpp"
@@ -13,8 +14,6 @@
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// Values of grains of some kinds, counted in bins, one row a kind.
 class StackedHistogram {

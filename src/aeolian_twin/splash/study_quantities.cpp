@@ -3,11 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "aeolian_core/surface/degree.hpp"
+
 namespace aeolian {
 namespace {
 
 MeanValue in_degrees(MeanValue value) {
-  constexpr double degree = M_PI / 180;
   return {value.mean / degree, value.half_width / degree, value.error / degree, value.count};
 }
 

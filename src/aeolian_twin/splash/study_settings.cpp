@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/yaml_section.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// One of some words; throws Error naming them all.
 std::string word(YamlSection& section, const std::string& key, const std::vector<std::string>& allowed) {

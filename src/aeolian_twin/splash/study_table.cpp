@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
 /// The experiment's number of ejecta over ours, at most 1.
 double share_to_keep(const StudySettings& study, const std::vector<StudyPoint>& points) {
-  constexpr double degree = M_PI / 180;
   const double unit = std::sqrt(gravity * study.diameter);
   const auto measured = [&](const StudyPoint& p) {
     return p.speed >= 65 * unit && p.speed <= 140 * unit && p.angle > 9.9 * degree && p.angle < 21.1 * degree;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/twin/gnuplot.hpp"
 #include "aeolian_core/twin/plot_data.hpp"
 #include "aeolian_twin/photo/plot_panel.hpp"
@@ -13,7 +14,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr std::array<const char*, 6> colours = {"#7a1f5c", "#c2571a", "#d9a441",
                                                 "#3c6e9f", "#2f7d5b", "#8a8f98"};
 

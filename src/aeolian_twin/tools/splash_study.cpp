@@ -10,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_twin/splash/impact_picture.hpp"
 #include "aeolian_twin/splash/study_files.hpp"
@@ -21,7 +22,6 @@
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int stopped_code = 130;  // as a shell has it for a program that Ctrl-C has ended
 
 std::atomic<bool> stop{false};

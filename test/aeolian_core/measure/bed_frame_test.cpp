@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string>
 
-#include "../../degree.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
 

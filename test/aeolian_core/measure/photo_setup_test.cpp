@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "../../degree.hpp"
 #include "../../temporary_folder.hpp"
 #include <gtest/gtest.h>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "../../degree.hpp"
 #include <gtest/gtest.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {

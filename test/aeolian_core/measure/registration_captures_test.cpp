@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "../../degree.hpp"
 #include "../../shared_data.hpp"
 #include "fusion_worlds.hpp"
 #include <gtest/gtest.h>
@@ -21,6 +20,7 @@
 #include "aeolian_core/measure/map_surface.hpp"
 #include "aeolian_core/measure/registration.hpp"
 #include "aeolian_core/surface/cloud_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/median.hpp"
 
 namespace aeolian {

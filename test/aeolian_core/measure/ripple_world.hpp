@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../../degree.hpp"
-
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/height_map.hpp"
 #include "aeolian_core/surface/random.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "../../degree.hpp"
 #include "../../rendering/almanac.hpp"
 #include "../../rendering/lens.hpp"
 #include <gtest/gtest.h>
@@ -10,6 +9,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <yaml-cpp/yaml.h>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

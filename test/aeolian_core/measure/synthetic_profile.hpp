@@ -5,9 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "../../degree.hpp"
-
 #include "aeolian_core/measure/profile_analysis.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian::synthetic {

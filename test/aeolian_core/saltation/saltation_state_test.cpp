@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "../../degree.hpp"
 #include <gtest/gtest.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {

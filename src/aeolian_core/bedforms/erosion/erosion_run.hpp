@@ -74,7 +74,7 @@ class ErosionRun {
   std::optional<WindField> wind_;
   std::unique_ptr<Drift> drift_;
   std::unique_ptr<Launcher> launcher_;
-  FlightStep step_{};
+  ParcelStep step_{};
   double step_time_ = 0;  ///< of the flight [s]
   Parcels parcels_;
   std::vector<Batch> batches_;

@@ -34,7 +34,7 @@ struct State {
 };
 
 /// Its clearance goes to `above`.
-AEOLIAN_INLINE State moved(const State& p, const FlightStep& s, const float* surface, const float* shear,
+AEOLIAN_INLINE State moved(const State& p, const ParcelStep& s, const float* surface, const float* shear,
                            bool uniform, float& above) {
   const float cx = at_most(above_zero(p.x), s.last_x);
   const float cy = at_most(above_zero(p.y), s.last_y);
@@ -74,11 +74,11 @@ AEOLIAN_INLINE State moved(const State& p, const FlightStep& s, const float* sur
   return q;
 }
 
-AEOLIAN_INLINE void fly_each(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
+AEOLIAN_INLINE void fly_each(std::ptrdiff_t count, const ParcelStep& step, float* __restrict x,
                              float* __restrict y, float* __restrict z, float* __restrict u,
                              float* __restrict v, float* __restrict w, float* __restrict clearance,
                              const float* __restrict surface, const float* __restrict shear, bool uniform) {
-  const FlightStep s = step;
+  const ParcelStep s = step;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const State p{x[i], y[i], z[i], u[i], v[i], w[i]};
     float above = 0;
@@ -94,14 +94,14 @@ AEOLIAN_INLINE void fly_each(std::ptrdiff_t count, const FlightStep& step, float
   }
 }
 
-AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
+AEOLIAN_KERNEL void fly_in_uniform_wind(std::ptrdiff_t count, const ParcelStep& step, float* __restrict x,
                                         float* __restrict y, float* __restrict z, float* __restrict u,
                                         float* __restrict v, float* __restrict w, float* __restrict clearance,
                                         const float* __restrict surface, const float* __restrict shear) {
   fly_each(count, step, x, y, z, u, v, w, clearance, surface, shear, true);
 }
 
-AEOLIAN_KERNEL void fly_in_wind_of_cells(std::ptrdiff_t count, const FlightStep& step, float* __restrict x,
+AEOLIAN_KERNEL void fly_in_wind_of_cells(std::ptrdiff_t count, const ParcelStep& step, float* __restrict x,
                                          float* __restrict y, float* __restrict z, float* __restrict u,
                                          float* __restrict v, float* __restrict w,
                                          float* __restrict clearance, const float* __restrict surface,
@@ -133,10 +133,10 @@ void Parcels::remove(std::size_t i) {
   take_last(hop);
 }
 
-FlightStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosphere& air, double roughness,
+ParcelStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosphere& air, double roughness,
                        double step) {
   const GridGeometry& g = bed.geometry();
-  FlightStep s{};
+  ParcelStep s{};
   s.surface = bed.surface();
   s.stride = bed.stride();
   s.per_roughness = static_cast<float>(1 / roughness);
@@ -157,7 +157,7 @@ FlightStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosph
   return s;
 }
 
-void fly(Parcels& p, std::size_t begin, std::size_t end, const FlightStep& step) {
+void fly(Parcels& p, std::size_t begin, std::size_t end, const ParcelStep& step) {
   const auto count = static_cast<std::ptrdiff_t>(end - begin);
   const auto run = step.shear != nullptr ? fly_in_wind_of_cells : fly_in_uniform_wind;
   run(count, step, &p.x[begin], &p.y[begin], &p.z[begin], &p.vx[begin], &p.vy[begin], &p.vz[begin],

@@ -25,7 +25,7 @@ struct Parcels {
 };
 
 /// What a step through the air needs to know, in floats.
-struct FlightStep {
+struct ParcelStep {
   const float* surface;  ///< as in ErodibleBed
   std::int32_t stride;
   /// Friction velocity over von Karman's constant, east and north [m/s]: of each place of the surface, or the
@@ -42,12 +42,12 @@ struct FlightStep {
 };
 
 /// The constants of a grain, an air and a bed; without wind.
-FlightStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosphere& air, double roughness,
+ParcelStep flight_step(const ErodibleBed& bed, const Grain& grain, const Atmosphere& air, double roughness,
                        double step);
 
 /// Moves the parcels [begin, end) by a step: gravity to second order, drag implicitly, each with the full
 /// relative velocity in the logarithmic wind over the surface below it (specification sec. 2.4). Those below
 /// the surface, whose clearance is then not positive, stay as they are. Periodic places are wrapped.
-void fly(Parcels& parcels, std::size_t begin, std::size_t end, const FlightStep& step);
+void fly(Parcels& parcels, std::size_t begin, std::size_t end, const ParcelStep& step);
 
 }  // namespace aeolian

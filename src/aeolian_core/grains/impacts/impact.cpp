@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
@@ -13,7 +14,6 @@ constexpr Require require{"shot"};
 
 void require_valid(const Shot& shot) {
   require(shot.speed > 0 && std::isfinite(shot.speed), "speed", shot.speed, "positive");
-  constexpr double degree = M_PI / 180;
   require(shot.angle >= degree * (1 - 1e-9) && shot.angle <= 90 * degree * (1 + 1e-9), "angle", shot.angle,
           "0.01745 to 1.5708 (1 to 90 degrees)");
   require(shot.size_ratio >= 0.1 && shot.size_ratio <= 10, "size_ratio", shot.size_ratio, "0.1 to 10");

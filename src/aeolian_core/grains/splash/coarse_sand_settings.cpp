@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "aeolian_core/grains/splash/coarse_sand.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr std::size_t speeds = 6;
 
 /// A direction is kept this near to the vertical: ejecta further over were seen as rebounds or not at all.

@@ -4,11 +4,11 @@
 
 #include "aeolian_core/grains/splash/draws.hpp"
 #include "aeolian_core/grains/splash/unit_vector.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 
 double draw_elevation(double mean, RandomStream& random) {
-  constexpr double degree = M_PI / 180;
   return std::clamp(mean * draw_exponential(random), 1 * degree, 179 * degree);
 }
 

@@ -6,6 +6,7 @@
 #include "aeolian_core/grains/splash/splash_table.hpp"
 #include "aeolian_core/grains/splash/splash_table_nodes.hpp"
 #include "aeolian_core/surface/atomic_file.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/text.hpp"
 
@@ -13,7 +14,6 @@ namespace aeolian {
 namespace {
 
 constexpr const char* title = "# aeolian splash table 1";
-constexpr double degree = M_PI / 180;
 
 constexpr const char* legend =
     "# node,speed_over_sqrt_gd,angle_to_bed_deg,size_ratio,brinks_per_diameter,events: what follows, to the\n"

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "aeolian_core/surface/csv.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr std::array<const char*, 11> names{"run",         "panel_length_m", "panel_height_m", "tilt_deg",
                                             "thickness_m", "event",          "cell_m",         "height_m",
                                             "length_m",    "head_m",         "tail_m"};

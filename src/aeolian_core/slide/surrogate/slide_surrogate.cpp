@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/require.hpp"
 
 namespace aeolian {
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 double height_of(const PileRecord& r) { return r.height; }
 double length_of(const PileRecord& r) { return r.length; }

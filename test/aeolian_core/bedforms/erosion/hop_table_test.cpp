@@ -104,7 +104,7 @@ Hop kernel_hop(const HopWind& wind, double speed, double step, bool as_cells) {
   HeightMap map(GridGeometry(0, 0, 0.005, 256, 8));
   map.add(layer::elevation, 0);
   const ErodibleBed bed(map, 1.5e-4, true);
-  FlightStep s = flight_step(bed, wind.grain, wind.air, wind.roughness, step);
+  ParcelStep s = flight_step(bed, wind.grain, wind.air, wind.roughness, step);
   s.uniform_shear_x = static_cast<float>(wind.friction_velocity / von_karman);
   std::vector<float> shear;
   if (as_cells) {

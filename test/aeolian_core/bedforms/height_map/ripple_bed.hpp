@@ -5,9 +5,8 @@
 #include <numeric>
 #include <vector>
 
-#include "../../../degree.hpp"
-
 #include "aeolian_core/bedforms/height_map/ripple_model.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {

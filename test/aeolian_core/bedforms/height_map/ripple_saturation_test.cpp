@@ -2,10 +2,10 @@
 #include <complex>
 #include <vector>
 
-#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/bedforms/bedforms.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 #include "aeolian_core/surface/random.hpp"
 

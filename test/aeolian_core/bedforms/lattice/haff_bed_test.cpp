@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/bedforms/theory/periodic_profile.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include "../../../degree.hpp"
 #include <gtest/gtest.h>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

@@ -1,9 +1,10 @@
 #include "aeolian_core/grains/impacts/impact.hpp"
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include "small_bed.hpp"
 #include <gtest/gtest.h>
+
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

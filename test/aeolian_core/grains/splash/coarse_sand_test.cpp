@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/surface/degree.hpp"
 
 namespace aeolian {
 namespace {

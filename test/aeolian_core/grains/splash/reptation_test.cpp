@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "../../../degree.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/grain.hpp"
 #include "aeolian_core/grains/splash/splash.hpp"
 #include "aeolian_core/grains/splash/surface_roughness.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {

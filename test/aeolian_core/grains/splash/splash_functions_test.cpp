@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <gtest/gtest.h>
 
@@ -15,6 +14,7 @@
 #include "aeolian_core/grains/splash/laemmel.hpp"
 #include "aeolian_core/grains/splash/splash_choice.hpp"
 #include "aeolian_core/grains/splash/ungar_haff.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {

@@ -6,12 +6,12 @@
 #include <set>
 #include <sstream>
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "aeolian_core/grains/splash/splash_choice.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/error.hpp"
 
 namespace aeolian {

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "../../../degree.hpp"
 #include "../../../error_of.hpp"
 #include "../../../temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 #include "aeolian_core/slide/surrogate/pile_design.hpp"
+#include "aeolian_core/surface/degree.hpp"
 #include "aeolian_core/surface/random.hpp"
 
 namespace aeolian {
