@@ -44,9 +44,7 @@ PointLocator locator(const PointCloud& cloud, const Eigen::Isometry3d& pose, con
                      const FusionParameters& p, const SensorNoise& sensor) {
   PointLocator l;
   const Eigen::Matrix3d rotation = pose.linear();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      l.rotation[static_cast<std::size_t>(3 * row + column)] = rotation(row, column);
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(l.rotation.data()) = rotation;
   l.offset = {pose.translation().x() - g.origin_x(), pose.translation().y() - g.origin_y(),
               pose.translation().z()};
   l.origin = {cloud.origin_x, cloud.origin_y, cloud.origin_z};
@@ -327,14 +325,16 @@ TileMask HeightFusion::replace(const HeightMap& known, const HeightMap::Layer& m
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (std::isnan(mask[i])) continue;
     const CellIndex at = g.cell_at(i);
-    constexpr auto side = static_cast<int>(FusionTile::side);
-    const auto tile_at = static_cast<std::size_t>(at.y / side * changed.tiles_x() + at.x / side);
+    constexpr auto side = FusionTile::side;
+    const auto x = static_cast<std::size_t>(at.x);
+    const auto y = static_cast<std::size_t>(at.y);
+    const std::size_t tile_at = y / side * static_cast<std::size_t>(changed.tiles_x()) + x / side;
     auto& tile = tiles_[tile_at];
     const std::optional<CellEstimate> cell = cells.at(i);
     if (!tile && !cell) continue;
     if (!tile) tile = std::make_unique<FusionTile>();
     tile->open(scan_, newest_, rules_);
-    const auto in_tile = static_cast<std::size_t>(at.y % side * side + at.x % side);
+    const std::size_t in_tile = y % side * side + x % side;
     if (cell)
       tile->begin_cell(in_tile, *cell);
     else

@@ -68,7 +68,7 @@ CellSet::Row CellMarks::take_row(std::size_t y) {
       0x0102040810204080U;  // lowest bits of eight bytes into the highest
   CellSet::Row row = 0;
   for (std::size_t x = 0; x < CellSet::side; x += at_once) {
-    std::uint64_t bytes;
+    std::uint64_t bytes = 0;
     std::uint8_t* const marks = &marks_[y * CellSet::side + x];
     std::memcpy(&bytes, marks, at_once);
     if (bytes == 0) continue;

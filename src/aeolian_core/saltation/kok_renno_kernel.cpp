@@ -13,8 +13,8 @@ namespace {
 
 constexpr double fastest_launch = 100;  ///< [m/s]
 constexpr int knots_per_octave = 16;
-constexpr double slowest_impact = 1.0 / 64;               ///< [m/s], below: in proportion
-constexpr std::size_t all_knots = 16 * knots_per_octave;  ///< up to 1000 m/s
+constexpr double slowest_impact = 1.0 / 64;                            ///< [m/s], below: in proportion
+constexpr std::size_t all_knots = std::size_t{16} * knots_per_octave;  ///< up to 1000 m/s
 
 constexpr Require require{"Kok & Renno's splash"};
 

@@ -73,7 +73,8 @@ void SampledKernel::draw() {
   auto table = std::make_shared<std::vector<double>>(knots_ * angles.size() * classes_.size(), 0.0);
   SplashEvent event;
   for (std::size_t k = 0; k < knots_ * angles.size(); ++k) {
-    const Impact impact{slowest_impact * std::exp2(static_cast<double>(k / angles.size()) / knots_per_octave),
+    const std::size_t knot = k / angles.size();
+    const Impact impact{slowest_impact * std::exp2(static_cast<double>(knot) / knots_per_octave),
                         angles[k % angles.size()]};
     RandomStream random(sampling_.seed, k);
     double* spectrum = table->data() + k * classes_.size();
