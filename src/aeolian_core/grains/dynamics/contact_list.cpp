@@ -9,19 +9,18 @@ namespace aeolian {
 template <int Dim>
 void ContactList<Dim>::assign(const std::vector<NearPair<Dim>>& pairs, int slots) {
   const int chunks = chunk_of(slots - 1) + 1;
-  first_.clear();
-  second_.clear();
-  target_.clear();
-  for (auto& axis : slip_) axis.clear();
+  resize(pairs.size() + static_cast<std::size_t>(chunks) * (lane_count - 1));
   begin_.assign(1, 0);
   fetches_.clear();
   loads_ = slots;
 
-  const auto push = [this](const NearPair<Dim>& pair, int target) {
-    first_.push_back(pair.first);
-    second_.push_back(pair.second);
-    target_.push_back(target);
-    for (int d = 0; d < slip_size<Dim>; ++d) slip_[d].push_back(pair.slip[d]);
+  std::size_t size = 0;
+  const auto push = [&](const NearPair<Dim>& pair, int target) {
+    first_[size] = pair.first;
+    second_[size] = pair.second;
+    target_[size] = target;
+    for (int d = 0; d < slip_size<Dim>; ++d) slip_[d][size] = pair.slip[d];
+    ++size;
   };
   auto pair = pairs.begin();
   for (int chunk = 0; chunk < chunks; ++chunk) {
@@ -33,9 +32,10 @@ void ContactList<Dim>::assign(const std::vector<NearPair<Dim>>& pairs, int slots
         push(*pair, loads_++);
       }
     }
-    while (first_.size() % lane_count != 0) push({first_.back(), 0}, first_.back());
-    begin_.push_back(static_cast<int>(first_.size()));
+    while (size % lane_count != 0) push({first_[size - 1], 0}, first_[size - 1]);
+    begin_.push_back(static_cast<int>(size));
   }
+  resize(size);
 
   std::stable_sort(fetches_.begin(), fetches_.end(),
                    [](const Fetch& a, const Fetch& b) { return chunk_of(a.slot) < chunk_of(b.slot); });
@@ -45,15 +45,23 @@ void ContactList<Dim>::assign(const std::vector<NearPair<Dim>>& pairs, int slots
 }
 
 template <int Dim>
+void ContactList<Dim>::resize(std::size_t size) {
+  for (auto* column : {&first_, &second_, &target_}) column->resize(size);
+  for (auto& axis : slip_) axis.resize(size);
+}
+
+template <int Dim>
 std::vector<NearPair<Dim>> ContactList<Dim>::pairs() const {
-  std::vector<NearPair<Dim>> pairs;
-  pairs.reserve(first_.size());
+  std::vector<NearPair<Dim>> pairs(first_.size());
+  auto pair = pairs.begin();
   for (std::size_t at = 0; at < first_.size(); ++at) {
     if (second_[at] == 0) continue;
-    NearPair<Dim> pair{first_[at], second_[at]};
-    for (int d = 0; d < slip_size<Dim>; ++d) pair.slip[d] = slip_[d][at];
-    pairs.push_back(pair);
+    pair->first = first_[at];
+    pair->second = second_[at];
+    for (int d = 0; d < slip_size<Dim>; ++d) pair->slip[d] = slip_[d][at];
+    ++pair;
   }
+  pairs.erase(pair, pairs.end());
   return pairs;
 }
 

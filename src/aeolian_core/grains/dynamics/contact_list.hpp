@@ -54,6 +54,8 @@ class ContactList {
   double* slip(int axis) { return slip_[axis].data(); }
 
  private:
+  void resize(std::size_t size);
+
   std::vector<int> first_, second_, target_;
   std::vector<double> slip_[slip_size<Dim>];
   std::vector<int> begin_ = {0}, fetch_begin_ = {0};

@@ -94,6 +94,7 @@ int GrainDynamics<Dim>::Engine::add(const Vector<Dim>& position, double radius, 
   slot_.push_back(slot);
   records_.push_back(record);
   number_.push_back(number);
+  asleep_.push_back(0);
   sleepers_.emplace_back();
   rest_.push_back(0);
   numbers_.push_back(number);
@@ -117,7 +118,7 @@ void GrainDynamics<Dim>::Engine::set_motion(int grain, const Vector<Dim>& veloci
   const std::size_t slot = slot_of(grain);
   Record& record = records_[slot];
   require_valid_grain<Dim>(world_, position(grain), radius(grain), velocity, spin);
-  if (sleepers_[slot].asleep) wake({static_cast<int>(slot)});
+  if (asleep_[slot]) wake({static_cast<int>(slot)});
   set_values<Dim>(record, Record::velocity, velocity);
   std::copy_n(spin.data(), Record::turns, record.value + Record::spin);
   ready_ = false;

@@ -54,7 +54,6 @@ class GrainDynamics<Dim>::Engine {
 
   /// What a grain that sleeps remembers.
   struct Sleeper {
-    bool asleep = false;
     Load expected;  ///< from neighbours that are awake, when it fell asleep
     Load owed;      ///< the impulses since then beyond that, which it has not answered yet
   };
@@ -71,7 +70,7 @@ class GrainDynamics<Dim>::Engine {
   double natural_step() const;
   void refuse_squeezed() const;
 
-  bool sleeps(int slot) const { return sleepers_[static_cast<std::size_t>(slot)].asleep; }
+  bool sleeps(int slot) const { return asleep_[static_cast<std::size_t>(slot)] != 0; }
   void watch(int chunk, double dt, std::vector<int>& restless);
   void wake(const std::vector<int>& slots);
   void wake_all();
@@ -98,6 +97,7 @@ class GrainDynamics<Dim>::Engine {
   std::vector<int> number_{-1};  // of the grain in each slot, -1: none
   std::vector<int> slot_;        // of each number, -1: removed
   std::vector<int> numbers_;
+  std::vector<char> asleep_{0};       // by slot, apart from what sleepers remember: it is asked of every pair
   std::vector<Sleeper> sleepers_{1};  // by slot
   std::vector<double> rest_{0};       // how long each slot has been slow [s]
   int steps_since_lull_ = 0;

@@ -54,6 +54,7 @@ void GrainDynamics<Dim>::Engine::sort() {
   std::vector<int> fresh(records_.size(), 0);
   std::vector<Record> records(1, records_[0]);
   std::vector<int> numbers(1, -1);
+  std::vector<char> asleep(1, 0);
   std::vector<Sleeper> sleepers(1);
   std::vector<double> rest(1, 0);
   for (const int slot : near_.order(records_)) {
@@ -64,11 +65,13 @@ void GrainDynamics<Dim>::Engine::sort() {
     slot_[static_cast<std::size_t>(number_[s])] = place;
     records.push_back(records_[s]);
     numbers.push_back(number_[s]);
+    asleep.push_back(asleep_[s]);
     sleepers.push_back(sleepers_[s]);
     rest.push_back(rest_[s]);
   }
   records_.swap(records);
   number_.swap(numbers);
+  asleep_.swap(asleep);
   sleepers_.swap(sleepers);
   rest_.swap(rest);
 

@@ -70,8 +70,8 @@ std::vector<GrainContact<Dim>> GrainDynamics<Dim>::Engine::contacts(int grain) c
 
 template <int Dim>
 std::size_t GrainDynamics<Dim>::Engine::awake() const {
-  return static_cast<std::size_t>(std::count_if(
-      numbers_.begin(), numbers_.end(), [this](int grain) { return !sleepers_[slot_of(grain)].asleep; }));
+  return static_cast<std::size_t>(std::count_if(numbers_.begin(), numbers_.end(),
+                                                [this](int grain) { return asleep_[slot_of(grain)] == 0; }));
 }
 
 template <int Dim>

@@ -72,17 +72,19 @@ void GrainDynamics<Dim>::Engine::watch(int chunk, double dt, std::vector<int>& r
 template <int Dim>
 void GrainDynamics<Dim>::Engine::wake(const std::vector<int>& slots) {
   for (const int slot : slots) {
-    sleepers_[static_cast<std::size_t>(slot)].asleep = false;
+    asleep_[static_cast<std::size_t>(slot)] = 0;
     rest_[static_cast<std::size_t>(slot)] = 0;
   }
   std::vector<NearPair<Dim>> pairs = contacts_.pairs();
   const auto middle = static_cast<std::ptrdiff_t>(pairs.size());
-  const auto still_resting =
-      std::stable_partition(resting_.begin(), resting_.end(),
-                            [this](const auto& pair) { return sleeps(pair.first) && sleeps(pair.second); });
-  for (auto pair = still_resting; pair != resting_.end(); ++pair) {
-    pairs.push_back(*pair);
-    change_expected(*pair, 1);
+  auto still_resting = resting_.begin();
+  for (const NearPair<Dim>& pair : resting_) {
+    if (sleeps(pair.first) && sleeps(pair.second)) {
+      *still_resting++ = pair;
+    } else {
+      pairs.push_back(pair);
+      change_expected(pair, 1);
+    }
   }
   resting_.erase(still_resting, resting_.end());
   // They start from rest: what has pushed them was thrown back with all its energy.
@@ -99,7 +101,7 @@ template <int Dim>
 void GrainDynamics<Dim>::Engine::wake_all() {
   std::vector<int> slots;
   for (std::size_t slot = 1; slot < records_.size(); ++slot)
-    if (sleepers_[slot].asleep) slots.push_back(static_cast<int>(slot));
+    if (asleep_[slot]) slots.push_back(static_cast<int>(slot));
   if (!slots.empty()) wake(slots);
 }
 
@@ -107,13 +109,13 @@ void GrainDynamics<Dim>::Engine::wake_all() {
 template <int Dim>
 void GrainDynamics<Dim>::Engine::change_expected(const NearPair<Dim>& pair, double times) {
   const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
-  if (!sleepers_[first].asleep && !sleepers_[second].asleep) return;
+  if (!asleep_[first] && !asleep_[second]) return;
   Load on_first, on_second;
   if (!loads_of<Dim>(law_, near_.period().data(), records_[first], records_[second], pair, on_first,
                      on_second))
     return;
-  if (sleepers_[first].asleep) add_load<Dim>(sleepers_[first].expected, on_first, times);
-  if (sleepers_[second].asleep) add_load<Dim>(sleepers_[second].expected, on_second, times);
+  if (asleep_[first]) add_load<Dim>(sleepers_[first].expected, on_first, times);
+  if (asleep_[second]) add_load<Dim>(sleepers_[second].expected, on_second, times);
 }
 
 /// Now and then puts to sleep the grains that have been slow for long enough and rest on something.
@@ -159,11 +161,10 @@ void GrainDynamics<Dim>::Engine::lull() {
   for (const NearPair<Dim>& pair : pairs) {
     const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
     if (tired[first] && tired[second]) continue;
-    if ((tired[first] && sleepers_[second].asleep) || (tired[second] && sleepers_[first].asleep))
-      change_expected(pair, -1);
+    if ((tired[first] && asleep_[second]) || (tired[second] && asleep_[first])) change_expected(pair, -1);
   }
   for (const int slot : awake_)
-    if (tired[static_cast<std::size_t>(slot)]) sleepers_[static_cast<std::size_t>(slot)].asleep = true;
+    if (tired[static_cast<std::size_t>(slot)]) asleep_[static_cast<std::size_t>(slot)] = 1;
   const auto asleep = std::stable_partition(pairs.begin(), pairs.end(), [this](const auto& pair) {
     return !sleeps(pair.first) || !sleeps(pair.second);
   });
@@ -201,7 +202,7 @@ void GrainDynamics<Dim>::Engine::divide_work() {
     for (int slot = std::max(1, chunk * slots_per_chunk); slot < end; ++slot) {
       const auto s = static_cast<std::size_t>(slot);
       if (number_[s] < 0) continue;
-      if (!sleepers_[s].asleep)
+      if (!asleep_[s])
         awake_.push_back(slot);
       else if (beside[s])
         border_.push_back(slot);
