@@ -53,6 +53,11 @@ void for_each_cell(std::size_t y, CellSet::Row row, Visit&& visit) {
   for (; row != 0; row &= row - 1) visit(y * CellSet::side + static_cast<std::size_t>(__builtin_ctz(row)));
 }
 
+// So far ahead cells come from the second to the first cache.
+constexpr std::size_t listed_ahead = 32;
+constexpr std::size_t samples_ahead = 16;
+void bring(const FilterCell& cell) { __builtin_prefetch(&cell, 1); }
+
 /// A row of a tile, whose first cell is at `first`.
 void fetch(const TileLayers& layers, std::size_t first) {
   constexpr std::size_t cells_per_line = 64 / sizeof(float);
@@ -136,9 +141,10 @@ void FusionTile::move_on(const CellList& list, const FusionRules& rules, HeightS
     batch.count = std::min(CellBatch::size, list.count - first);
     for (std::size_t i = 0; i < batch.count; ++i) {
       ahead.fetch_one();
+      if (first + i + listed_ahead < list.count) bring(cells_[list.cells[first + i + listed_ahead]]);
       FilterCell& cell = cells_[list.cells[first + i]];
       batch.cells[i] = &cell;
-      in.steps[i] = &steps.after(time_ - cell.time);
+      in.steps[i] = steps.after(time_ - cell.time);
       in.still_share[i] = cell.time < still_since_ ? 0.0F : 1.0F;
       cell.time = time_;
     }
@@ -154,6 +160,7 @@ std::size_t FusionTile::add(const Sample* samples, std::size_t count, const Fusi
   const double squared_relief = rules.gate.relief * rules.gate.relief;
   for (std::size_t i = 0; i < count; ++i) {
     ahead.fetch_one();
+    if (i + samples_ahead < count) bring(cells_[samples[i + samples_ahead].cell()]);
     const Sample sample = samples[i];
     FilterCell& cell = cells_[sample.cell()];
     const auto steps = static_cast<double>(std::int64_t{sample.height()} - cell.height);

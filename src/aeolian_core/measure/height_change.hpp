@@ -49,7 +49,7 @@ class HeightSteps {
  public:
   explicit HeightSteps(const HeightChange& change) : change_(change), steps_(slots) {}
 
-  const FilterStep& after(std::uint32_t milliseconds) {
+  FilterStep after(std::uint32_t milliseconds) {
     Slot& slot = steps_[(milliseconds * 2654435769U) >> (32 - bits)];
     if (!slot.used || slot.milliseconds != milliseconds)
       slot = {FilterStep(height_step(change_, 1e-3 * milliseconds)), milliseconds, true};

@@ -55,12 +55,12 @@ static_assert(offsetof(FilterCell, weight) == bytes_of_row && sizeof(FilterStep)
               sizeof(StepColumns) == size * bytes_of_row);
 
 /// Rows of eight numbers to the first eight columns.
-template <class Row, class Into>
-AEOLIAN_INLINE void to_columns(Row* const* rows, Into* into) {
+template <class RowAt, class Into>
+AEOLIAN_INLINE void to_columns(RowAt row_at, Into* into) {
   auto* const columns = reinterpret_cast<unsigned char*>(into);
   for (std::size_t first = 0; first < size; first += Transposition::side) {
     Transposition block;
-    for (std::size_t i = 0; i < Transposition::side; ++i) block.take_row(i, rows[first + i]);
+    for (std::size_t i = 0; i < Transposition::side; ++i) block.take_row(i, row_at(first + i));
     block.transpose();
     for (std::size_t k = 0; k < Transposition::side; ++k)
       block.give_row(k, columns + (k * size + first) * sizeof(float));
@@ -68,7 +68,7 @@ AEOLIAN_INLINE void to_columns(Row* const* rows, Into* into) {
 }
 
 AEOLIAN_INLINE void load(const CellBatch& batch, const PointScale& scale, Columns& c) {
-  to_columns(batch.cells.data(), &c);
+  to_columns([&](std::size_t i) { return batch.cells[i]; }, &c);
   for (std::size_t i = 0; i < size; ++i) {
     c.information[i] = static_cast<float>(batch.cells[i]->weight * scale.information);
     c.pull[i] = static_cast<float>(batch.cells[i]->moment * scale.pull);
@@ -181,7 +181,7 @@ AEOLIAN_WIDE_KERNEL MotionEvidence advance_all(const CellBatch& batch, const Cel
   Columns columns;
   StepColumns steps;
   load(batch, scale, columns);
-  to_columns(in.steps.data(), &steps);
+  to_columns([&](std::size_t i) { return &in.steps[i]; }, &steps);
   constexpr auto unit = static_cast<float>(MotionEvidence::unit);
   std::int32_t rest = 0;
   std::int32_t drift = 0;
@@ -231,10 +231,9 @@ CellBatch filled(const CellBatch& given, FilterCell& spare) {
 }  // namespace
 
 MotionEvidence advance(const CellBatch& given, CellSteps& steps, const PointScale& scale) {
-  static const FilterStep at_rest;
   FilterCell spare;
   for (std::size_t i = given.count; i < size; ++i) {
-    steps.steps[i] = &at_rest;
+    steps.steps[i] = {};
     steps.still_share[i] = 1;
   }
   return advance_all(filled(given, spare), steps, scale);

@@ -46,7 +46,7 @@ struct CellBatch {
 
 /// How a batch of cells goes on.
 struct CellSteps {
-  std::array<const FilterStep*, CellBatch::size> steps;
+  std::array<FilterStep, CellBatch::size> steps;
   /// 1, or 0 where the still filter begins with what is tracked.
   std::array<float, CellBatch::size> still_share;
 };

@@ -205,5 +205,32 @@ TEST_F(FusionOrder, OfThreads) {
   expect_same_bits(one, two);
 }
 
+/// A cell that was seen less often than its neighbour goes on as if it were alone, whatever both intervals
+/// are.
+TEST(FusionOfCells, GoOnOverTheirOwnIntervals) {
+  const Eigen::Isometry3d pose = looking_down(0.05, 0.05, 1.5);
+  const auto seen_at = [&](std::initializer_list<double> places) {
+    std::vector<Eigen::Vector3d> points;
+    for (const double x : places) points.emplace_back(x, 0.045, 0.001);
+    return seen_from(pose, points);
+  };
+  const auto fused = [&](const std::vector<std::pair<double, std::initializer_list<double>>>& scans) {
+    HeightFusion fusion(GridGeometry(0, 0, 0.01, 10, 10), {});
+    for (const auto& [stamp, places] : scans) fusion.add(seen_at(places), pose, stamp);
+    return HeightMap(fusion.map());
+  };
+  constexpr double often = 0.025, rarely = 0.035;
+  for (int interval = 1; interval <= 400; ++interval) {
+    const double between = 1e-3 * interval;
+    const HeightMap both = fused({{0, {often, rarely}}, {between, {often}}, {1, {often, rarely}}});
+    const HeightMap one = fused({{0, {often}}, {between, {often}}, {1, {often}}});
+    const HeightMap other = fused({{0, {rarely}}, {1, {rarely}}});
+    for (const std::string& name : layers) {
+      EXPECT_EQ(both.layer(name)[42], one.layer(name)[42]) << name << ", " << interval << " ms";
+      EXPECT_EQ(both.layer(name)[43], other.layer(name)[43]) << name << ", " << interval << " ms";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aeolian
