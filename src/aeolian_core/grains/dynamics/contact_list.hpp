@@ -36,6 +36,10 @@ class ContactList {
   void assign(const std::vector<NearPair<Dim>>& pairs, int slots);
   /// The pairs with their springs as they are now, ascending.
   std::vector<NearPair<Dim>> pairs() const;
+  /// Those of one slot, added to `pairs`.
+  void copy(int slot, std::vector<NearPair<Dim>>& pairs) const;
+  /// Adds others, ascending and new.
+  void insert(const std::vector<NearPair<Dim>>& others, int slots);
 
   int chunks() const { return static_cast<int>(begin_.size()) - 1; }
   int begin(int chunk) const { return begin_[static_cast<std::size_t>(chunk)]; }
@@ -48,16 +52,23 @@ class ContactList {
   }
   int loads() const { return loads_; }  ///< one for each slot and each fetch
 
-  const int* first() const { return first_.data(); }
-  const int* second() const { return second_.data(); }
-  const int* target() const { return target_.data(); }
-  double* slip(int axis) { return slip_[axis].data(); }
+  const int* first() const { return now_.first.data(); }
+  const int* second() const { return now_.second.data(); }
+  const int* target() const { return now_.target.data(); }
+  double* slip(int axis) { return now_.slip[axis].data(); }
 
  private:
-  void resize(std::size_t size);
+  struct Columns {
+    std::vector<int> first, second, target;
+    std::vector<double> slip[slip_size<Dim>];
 
-  std::vector<int> first_, second_, target_;
-  std::vector<double> slip_[slip_size<Dim>];
+    void resize(std::size_t size);
+  };
+
+  void sort_fetches(int chunks);
+  NearPair<Dim> pair(std::size_t at) const;
+
+  Columns now_, before_;  // the latter is memory to build the next list in
   std::vector<int> begin_ = {0}, fetch_begin_ = {0};
   std::vector<Fetch> fetches_;
   int loads_ = 0;

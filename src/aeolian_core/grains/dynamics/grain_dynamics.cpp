@@ -130,6 +130,10 @@ std::size_t GrainDynamics<Dim>::awake() const {
   return engine_->awake();
 }
 template <int Dim>
+std::vector<int> GrainDynamics<Dim>::moving() const {
+  return engine_->moving();
+}
+template <int Dim>
 std::size_t GrainDynamics<Dim>::grain_steps() const {
   return engine_->grain_steps();
 }

@@ -134,6 +134,7 @@ class GrainDynamics {
   double kinetic_energy() const;    ///< with that of turning [J]
   double potential_energy() const;  ///< of gravity, relative to the origin, and of springs [J]
   std::size_t awake() const;        ///< grains that are not asleep
+  std::vector<int> moving() const;  ///< their numbers, in any order
   /// Grains moved by steps so far: what the work is proportional to.
   std::size_t grain_steps() const;
 

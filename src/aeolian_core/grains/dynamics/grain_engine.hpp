@@ -7,6 +7,7 @@
 #include "aeolian_core/grains/dynamics/grain_dynamics.hpp"
 #include "aeolian_core/grains/dynamics/near_list.hpp"
 #include "aeolian_core/grains/dynamics/pair_forces.hpp"
+#include "aeolian_core/grains/dynamics/resting_pairs.hpp"
 #include "aeolian_core/grains/dynamics/time_step.hpp"
 #include "aeolian_core/grains/dynamics/wall_contact.hpp"
 
@@ -46,6 +47,7 @@ class GrainDynamics<Dim>::Engine {
   double kinetic_energy() const;
   double potential_energy() const;  ///< when ready
   std::size_t awake() const;
+  std::vector<int> moving() const;
   std::size_t grain_steps() const { return grain_steps_; }
 
  private:
@@ -76,6 +78,7 @@ class GrainDynamics<Dim>::Engine {
   void wake_all();
   void change_expected(const NearPair<Dim>& pair, double times);
   void lull();
+  void find_awake();
   void divide_work();
 
   void measure();
@@ -85,6 +88,7 @@ class GrainDynamics<Dim>::Engine {
   void list_walls(const std::vector<int>& slots);
   void list_moved(double dt, bool moved);
   std::vector<NearPair<Dim>> all_pairs() const;
+  std::vector<NearPair<Dim>> pairs_of(int slot) const;
 
   GrainWorld<Dim> world_;
   LawConstants law_;
@@ -104,7 +108,7 @@ class GrainDynamics<Dim>::Engine {
 
   NearList<Dim> near_;
   ContactList<Dim> contacts_;
-  std::vector<NearPair<Dim>> resting_;           // pairs that both sleep, ascending
+  RestingPairs<Dim> resting_;
   std::vector<WallContact<Dim>> wall_contacts_;  // by ascending slots and walls
   std::vector<double> wall_way_, wall_skin_;     // how far each has gone since it was listed, and may go [m]
   std::vector<int> unlisted_, removed_;          // slots

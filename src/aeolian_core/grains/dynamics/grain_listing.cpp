@@ -130,7 +130,7 @@ void GrainDynamics<Dim>::Engine::list(const std::vector<int>& slots, std::vector
   const auto asleep = std::stable_partition(pairs.begin(), pairs.end(), [this](const auto& pair) {
     return !sleeps(pair.first) || !sleeps(pair.second);
   });
-  if (asleep != pairs.end()) resting_.assign(asleep, pairs.end());
+  std::for_each(asleep, pairs.end(), [this](const auto& pair) { resting_.add(pair); });
   pairs.erase(asleep, pairs.end());
   contacts_.assign(pairs, static_cast<int>(records_.size()));
   listed_since_sort_ += slots.size();
@@ -147,7 +147,7 @@ void GrainDynamics<Dim>::Engine::list(const std::vector<int>& slots, std::vector
   } else {
     list_walls(slots);
   }
-  divide_work();
+  find_awake();
 }
 
 /// Takes removed grains out of the lists and wakes those that slept on them.
@@ -155,16 +155,15 @@ template <int Dim>
 void GrainDynamics<Dim>::Engine::drop_removed() {
   const auto gone = [this](int slot) { return number_[static_cast<std::size_t>(slot)] < 0; };
   const auto pair_gone = [&](const NearPair<Dim>& pair) { return gone(pair.first) || gone(pair.second); };
+  std::vector<NearPair<Dim>> lost;
+  for (const int slot : removed_) resting_.take(slot, lost);
   std::vector<int> left;
-  for (const NearPair<Dim>& pair : resting_)
-    if (pair_gone(pair)) {
-      if (!gone(pair.first)) left.push_back(pair.first);
-      if (!gone(pair.second)) left.push_back(pair.second);
-    }
+  for (const NearPair<Dim>& pair : lost)
+    for (const int slot : {pair.first, pair.second})
+      if (!gone(slot)) left.push_back(slot);
   std::vector<NearPair<Dim>> pairs = contacts_.pairs();
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), pair_gone), pairs.end());
   contacts_.assign(pairs, static_cast<int>(records_.size()));
-  resting_.erase(std::remove_if(resting_.begin(), resting_.end(), pair_gone), resting_.end());
   wall_contacts_.erase(std::remove_if(wall_contacts_.begin(), wall_contacts_.end(),
                                       [&](const auto& contact) { return gone(contact.grain); }),
                        wall_contacts_.end());
@@ -173,12 +172,21 @@ void GrainDynamics<Dim>::Engine::drop_removed() {
   std::sort(left.begin(), left.end());
   left.erase(std::unique(left.begin(), left.end()), left.end());
   wake(left);
+  find_awake();
 }
 
 template <int Dim>
 std::vector<NearPair<Dim>> GrainDynamics<Dim>::Engine::all_pairs() const {
   std::vector<NearPair<Dim>> pairs = contacts_.pairs();
-  pairs.insert(pairs.end(), resting_.begin(), resting_.end());
+  resting_.copy(pairs);
+  return pairs;
+}
+
+template <int Dim>
+std::vector<NearPair<Dim>> GrainDynamics<Dim>::Engine::pairs_of(int slot) const {
+  std::vector<NearPair<Dim>> pairs;
+  contacts_.copy(slot, pairs);
+  resting_.copy(slot, pairs);
   return pairs;
 }
 

@@ -33,8 +33,7 @@ template <int Dim>
 std::vector<GrainContact<Dim>> GrainDynamics<Dim>::Engine::contacts(int grain) const {
   std::vector<GrainContact<Dim>> out;
   const int only = grain < 0 ? -1 : static_cast<int>(slot_of(grain));
-  for (NearPair<Dim> pair : all_pairs()) {
-    if (only >= 0 && pair.first != only && pair.second != only) continue;
+  for (NearPair<Dim> pair : only < 0 ? all_pairs() : pairs_of(only)) {
     const auto number = [this](int slot) { return number_[static_cast<std::size_t>(slot)]; };
     // By ascending numbers, whatever the slots.
     if (number(pair.first) > number(pair.second)) {
@@ -72,6 +71,19 @@ template <int Dim>
 std::size_t GrainDynamics<Dim>::Engine::awake() const {
   return static_cast<std::size_t>(std::count_if(numbers_.begin(), numbers_.end(),
                                                 [this](int grain) { return asleep_[slot_of(grain)] == 0; }));
+}
+
+template <int Dim>
+std::vector<int> GrainDynamics<Dim>::Engine::moving() const {
+  std::vector<int> grains;
+  if (!ready_) {
+    std::copy_if(numbers_.begin(), numbers_.end(), std::back_inserter(grains),
+                 [this](int grain) { return asleep_[slot_of(grain)] == 0; });
+    return grains;
+  }
+  grains.reserve(awake_.size());
+  for (const int slot : awake_) grains.push_back(number_[static_cast<std::size_t>(slot)]);
+  return grains;
 }
 
 template <int Dim>

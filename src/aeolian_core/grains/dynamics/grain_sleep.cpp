@@ -39,6 +39,14 @@ void add_load(GrainLoad<Dim>& to, const GrainLoad<Dim>& load, double times) {
   for (int k = 0; k < 4 * GrainLoad<Dim>::packs; ++k) to.value[k] += times * load.value[k];
 }
 
+/// `others` ascend; what is there already stays once.
+void merge(std::vector<int>& slots, const std::vector<int>& others) {
+  const auto middle = static_cast<std::ptrdiff_t>(slots.size());
+  slots.insert(slots.end(), others.begin(), others.end());
+  std::inplace_merge(slots.begin(), slots.begin() + middle, slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+}
+
 template <int Dim>
 double squares(const double* from, int count) {
   double sum = 0;
@@ -69,31 +77,34 @@ void GrainDynamics<Dim>::Engine::watch(int chunk, double dt, std::vector<int>& r
   }
 }
 
+/// `slots` sleep and ascend.
 template <int Dim>
 void GrainDynamics<Dim>::Engine::wake(const std::vector<int>& slots) {
+  std::vector<NearPair<Dim>> pairs;
   for (const int slot : slots) {
     asleep_[static_cast<std::size_t>(slot)] = 0;
     rest_[static_cast<std::size_t>(slot)] = 0;
+    resting_.take(slot, pairs);
   }
-  std::vector<NearPair<Dim>> pairs = contacts_.pairs();
-  const auto middle = static_cast<std::ptrdiff_t>(pairs.size());
-  auto still_resting = resting_.begin();
-  for (const NearPair<Dim>& pair : resting_) {
-    if (sleeps(pair.first) && sleeps(pair.second)) {
-      *still_resting++ = pair;
-    } else {
-      pairs.push_back(pair);
-      change_expected(pair, 1);
-    }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<int> beside;
+  for (const NearPair<Dim>& pair : pairs) {
+    change_expected(pair, 1);
+    if (sleeps(pair.first)) beside.push_back(pair.first);
+    if (sleeps(pair.second)) beside.push_back(pair.second);
   }
-  resting_.erase(still_resting, resting_.end());
   // They start from rest: what has pushed them was thrown back with all its energy.
   for (const int slot : slots) {
     Sleeper& sleeper = sleepers_[static_cast<std::size_t>(slot)];
     sleeper.owed = sleeper.expected = Load();
   }
-  std::inplace_merge(pairs.begin(), pairs.begin() + middle, pairs.end());
-  contacts_.assign(pairs, static_cast<int>(records_.size()));
+  contacts_.insert(pairs, static_cast<int>(records_.size()));
+
+  merge(awake_, slots);
+  border_.erase(std::remove_if(border_.begin(), border_.end(), [this](int slot) { return !sleeps(slot); }),
+                border_.end());
+  std::sort(beside.begin(), beside.end());
+  merge(border_, beside);
   divide_work();
 }
 
@@ -173,17 +184,15 @@ void GrainDynamics<Dim>::Engine::lull() {
         tired[static_cast<std::size_t>(pair->first)] || tired[static_cast<std::size_t>(pair->second)];
     if (new_sleeper) change_expected(*pair, 1);
   }
-  const auto middle = static_cast<std::ptrdiff_t>(resting_.size());
-  resting_.insert(resting_.end(), asleep, pairs.end());
-  std::inplace_merge(resting_.begin(), resting_.begin() + middle, resting_.end());
+  std::for_each(asleep, pairs.end(), [this](const auto& pair) { resting_.add(pair); });
   pairs.erase(asleep, pairs.end());
   contacts_.assign(pairs, static_cast<int>(records_.size()));
-  divide_work();
+  find_awake();
 }
 
-/// Who is awake, and who sleeps beside somebody awake, by chunk.
+/// Who is awake, and who sleeps beside somebody awake.
 template <int Dim>
-void GrainDynamics<Dim>::Engine::divide_work() {
+void GrainDynamics<Dim>::Engine::find_awake() {
   std::vector<char> beside(records_.size(), 0);
   const int* const first = contacts_.first();
   const int* const second = contacts_.second();
@@ -193,24 +202,31 @@ void GrainDynamics<Dim>::Engine::divide_work() {
   }
   awake_.clear();
   border_.clear();
+  for (std::size_t slot = 1; slot < records_.size(); ++slot) {
+    if (number_[slot] < 0) continue;
+    if (!asleep_[slot])
+      awake_.push_back(static_cast<int>(slot));
+    else if (beside[slot])
+      border_.push_back(static_cast<int>(slot));
+  }
+  divide_work();
+}
+
+/// Where the chunks begin.
+template <int Dim>
+void GrainDynamics<Dim>::Engine::divide_work() {
   awake_begin_.assign(1, 0);
   border_begin_.assign(1, 0);
   wall_begin_.assign(1, 0);
-  auto wall = wall_contacts_.begin();
+  std::size_t awake = 0, border = 0, wall = 0;
   for (int chunk = 0; chunk < contacts_.chunks(); ++chunk) {
-    const int end = std::min((chunk + 1) * slots_per_chunk, static_cast<int>(records_.size()));
-    for (int slot = std::max(1, chunk * slots_per_chunk); slot < end; ++slot) {
-      const auto s = static_cast<std::size_t>(slot);
-      if (number_[s] < 0) continue;
-      if (!asleep_[s])
-        awake_.push_back(slot);
-      else if (beside[s])
-        border_.push_back(slot);
-    }
-    while (wall != wall_contacts_.end() && wall->grain < end) ++wall;
-    awake_begin_.push_back(static_cast<int>(awake_.size()));
-    border_begin_.push_back(static_cast<int>(border_.size()));
-    wall_begin_.push_back(static_cast<int>(wall - wall_contacts_.begin()));
+    const int end = (chunk + 1) * slots_per_chunk;
+    while (awake < awake_.size() && awake_[awake] < end) ++awake;
+    while (border < border_.size() && border_[border] < end) ++border;
+    while (wall < wall_contacts_.size() && wall_contacts_[wall].grain < end) ++wall;
+    awake_begin_.push_back(static_cast<int>(awake));
+    border_begin_.push_back(static_cast<int>(border));
+    wall_begin_.push_back(static_cast<int>(wall));
   }
   if (loads_.size() < static_cast<std::size_t>(contacts_.loads()))
     loads_.resize(static_cast<std::size_t>(contacts_.loads()));

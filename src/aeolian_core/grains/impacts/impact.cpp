@@ -165,9 +165,10 @@ class ImpactRun {
 
   void look_for_risen() {
     risen_.clear();
-    for (const int grain : grains_.numbers())
+    for (const int grain : grains_.moving())
       if (grains_.position(grain)[Dim - 1] > plane_ && grains_.velocity(grain)[Dim - 1] > 0)
         risen_.push_back(grain);
+    std::sort(risen_.begin(), risen_.end());
     for (const int grain : risen_) {
       note(grain);
       grains_.remove(grain);
@@ -202,7 +203,7 @@ class ImpactRun {
 
   /// No grain has the energy to reach the plane.
   bool is_calm() const {
-    for (const int grain : grains_.numbers()) {
+    for (const int grain : grains_.moving()) {
       const double rise = plane_ - grains_.position(grain)[Dim - 1];
       if (grains_.velocity(grain).squaredNorm() >= 2 * gravity_ * rise) return false;
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "grain_radius.hpp"
@@ -82,6 +83,29 @@ TEST(SleepTest, grains_wake_when_an_awake_support_leaves) {
   grains.advance(0.2);
   EXPECT_NEAR(grains.position(1).y(), radius, 1e-4);
   EXPECT_EQ(grains.awake(), 0u);
+}
+
+TEST(SleepTest, contacts_of_one_grain_are_those_of_the_whole_whoever_sleeps) {
+  GrainDynamics<2> grains = settled_bed(20, 10);
+  let_sleep(grains, 0.02);
+  const int struck = grains.numbers().front();
+  grains.set_motion(struck, {0.3, 0.2}, Spin<2>::Zero());
+  grains.advance(0.002);
+  const std::vector<int> moving = grains.moving();
+  ASSERT_GT(moving.size(), 0u);
+  ASSERT_LT(moving.size(), grains.size());
+  EXPECT_EQ(moving.size(), grains.awake());
+  const auto all = grains.contacts();
+  for (const int grain : grains.numbers()) {
+    std::vector<std::pair<int, int>> expected, found;
+    for (const auto& contact : all)
+      if (contact.first == grain || contact.second == grain)
+        expected.emplace_back(contact.first, contact.second);
+    for (const auto& contact : grains.contacts(grain)) found.emplace_back(contact.first, contact.second);
+    EXPECT_EQ(found, expected) << "grain " << grain;
+    const bool moves = grains.velocity(grain).norm() > 0;
+    EXPECT_GE(std::count(moving.begin(), moving.end(), grain), moves ? 1 : 0) << "grain " << grain;
+  }
 }
 
 TEST(SleepTest, a_grain_in_the_air_does_not_fall_asleep) {
