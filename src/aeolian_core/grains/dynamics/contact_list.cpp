@@ -65,7 +65,7 @@ void ContactList<Dim>::insert(const std::vector<NearPair<Dim>>& others, int slot
   sort_fetches(chunks);
 }
 
-/// By the chunk that fetches them, which chunks' order otherwise is kept.
+/// By the chunk that fetches them; within it the order is kept.
 template <int Dim>
 void ContactList<Dim>::sort_fetches(int chunks) {
   std::stable_sort(fetches_.begin(), fetches_.end(),
